@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <mrc/curvature.h>
+#include <mrc/options.h>
+#include <mrc/surface.h>
+
+namespace mrc {
+
+/// The scales of a contour, fixed before its first iteration at the contour as given.
+struct Scales {
+    double h = 0.0;        ///< mean length of the real edges between the vertices at most 4 real edges from the contour
+    double K = 0.0;        ///< area-weighted mean of |kappa_min| over those vertices (ridge: |kappa_max|), at least 0.01 / L0
+    double kappa_0 = 0.0;  ///< eq. 3.2's constant: kappa0_factor K
+    double L0 = 0.0;       ///< length of the contour
+    int n0 = 0;            ///< its number of arcs
+    Contour given;         ///< the contour itself
+};
+
+double contour_length(const Surface& surface, const Contour& contour);
+
+/// The mean edge length h near a contour.
+/// @throws InvalidInput where every edge there has length 0.
+double mean_edge_length(const Surface& surface, const Contour& contour);
+
+/// `field` must be made with h = mean_edge_length(surface, contour).
+Scales contour_scales(const Surface& surface, const CurvatureField& field, double h, const Contour& contour, const Options& options);
+
+}  // namespace mrc

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+namespace mrc {
+
+using Vec3 = Eigen::Vector3d;
+
+/// The point (1 - t) a + t b of the mesh edge ab; a vertex v is (v, v, 0).
+struct SurfacePoint {
+    int a = -1;
+    int b = -1;
+    double t = 0.0;
+
+    bool is_vertex() const { return a == b; }
+    bool operator==(const SurfacePoint&) const = default;
+};
+
+inline SurfacePoint vertex_point(int vertex) { return {vertex, vertex, 0.0}; }
+
+/// A closed loop or an open curve on the surface. A closed contour does not repeat its first point.
+struct Contour {
+    std::vector<SurfacePoint> points;
+    bool closed = true;
+
+    bool operator==(const Contour&) const = default;
+};
+
+Contour vertex_contour(std::span<const int> vertices, bool closed = true);
+
+/// Input that cannot be used. The message names the elements and says what to do.
+class InvalidInput : public std::invalid_argument {
+  public:
+    using std::invalid_argument::invalid_argument;
+};
+
+/// No contour satisfies the constraints. The message says where the search stops.
+class Infeasible : public InvalidInput {
+  public:
+    using InvalidInput::InvalidInput;
+};
+
+}  // namespace mrc

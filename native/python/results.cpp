@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results.h"
+
+#include "bindings.h"
+
+#include <mrc/contour.h>
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+
+namespace mrc_python {
+namespace {
+
+using mrc::Scales;
+
+const char* status_name(mrc::Status status) {
+    switch (status) {
+        case mrc::Status::improved: return "improved";
+        case mrc::Status::unchanged: return "unchanged";
+        case mrc::Status::cancelled: return "cancelled";
+    }
+    return "";
+}
+
+Integers edge_vertices(const mrc::Contour& contour) {
+    std::vector<int> ends;
+    for (const auto& p : contour.points) ends.insert(ends.end(), {p.a, p.b});
+    return to_array(ends, 2);
+}
+
+Doubles edge_parameters(const mrc::Contour& contour) {
+    std::vector<double> parameters;
+    for (const auto& p : contour.points) parameters.push_back(p.t);
+    return to_array(parameters);
+}
+
+py::dict statistics(const PyResult& r) {
+    const mrc::Statistics& s = r.result.statistics;
+    py::dict d;
+    d["faces"] = s.faces;
+    d["cut"] = s.cut;
+    d["nodes"] = s.nodes;
+    d["arcs"] = s.arcs;
+    d["linear_steps"] = s.linear_steps;
+    d["passes"] = s.passes;
+    d["iterations"] = s.iterations;
+    d["seconds"] = py::cast(s.seconds);
+    return d;
+}
+
+void bind_scales(py::module_& module) {
+    py::class_<Scales>(module, "Scales", "The scales of a contour, fixed before its first iteration.")
+        .def_readonly("h", &Scales::h, "Mean edge length within 4 rings of the contour.")
+        .def_readonly("K", &Scales::K, "Area-weighted mean of |kappa_min| there, at least 0.01 / L0.")
+        .def_readonly("kappa_0", &Scales::kappa_0, "The constant of eq. 3.2.")
+        .def_readonly("L0", &Scales::L0, "Length of the contour.")
+        .def_readonly("n0", &Scales::n0, "Its number of arcs.")
+        .def_property_readonly("given", [](const Scales& s) { return contour_vertices(s.given); }, "The contour's vertices, int32.");
+}
+
+void bind_measure(py::module_& module) {
+    py::class_<mrc::Measure>(module, "Measure", "The energy of a contour (eq. 3.3).")
+        .def_readonly("ratio", &mrc::Measure::ratio, "numerator / length")
+        .def_readonly("numerator", &mrc::Measure::numerator)
+        .def_readonly("length", &mrc::Measure::length)
+        .def_readonly("objective", &mrc::Measure::objective, "What is minimised.");
+}
+
+template <class Value>
+auto field(Value mrc::Result::*member) {
+    return [member](const PyResult& r) { return r.result.*member; };
+}
+
+}  // namespace
+
+Integers contour_vertices(const mrc::Contour& contour) {
+    std::vector<int> vertices;
+    for (const auto& p : contour.points) vertices.push_back(p.a);
+    return to_array(vertices);
+}
+
+PyResult describe(const mrc::Surface& surface, mrc::Result result) {
+    PyResult described;
+    for (const auto& p : result.contour.points) described.positions.push_back(surface.position(p));
+    described.segment_faces = mrc::segment_faces(surface, result.contour);
+    described.result = std::move(result);
+    return described;
+}
+
+void bind_results(py::module_& module) {
+    bind_scales(module);
+    bind_measure(module);
+    py::class_<PyResult>(module, "Result", "What optimize found. Ratios are in one over the mesh's unit of length.")
+        .def_property_readonly("status", [](const PyResult& r) { return status_name(r.result.status); },
+                               "'improved', 'unchanged' or 'cancelled'.")
+        .def_property_readonly("reason", field(&mrc::Result::reason), "Why the given contour is returned, in words.")
+        .def_property_readonly("ratio", field(&mrc::Result::ratio))
+        .def_property_readonly("initial_ratio", field(&mrc::Result::initial_ratio))
+        .def_property_readonly("objective", field(&mrc::Result::objective))
+        .def_property_readonly("initial_objective", field(&mrc::Result::initial_objective))
+        .def_property_readonly("salience", field(&mrc::Result::salience),
+                               "Minus the ratio over K of the best found, even where the given contour is returned.")
+        .def_property_readonly("lower_bound", field(&mrc::Result::lower_bound),
+                               "No contour of the last iteration's band has a lower objective.")
+        .def_property_readonly("gap", field(&mrc::Result::gap), "Objective of the best found minus lower_bound.")
+        .def_property_readonly("history", field(&mrc::Result::history), "Objective before the first and after each iteration.")
+        .def_property_readonly("scales", field(&mrc::Result::scales))
+        .def_property_readonly("statistics", &statistics)
+        .def_property_readonly("closed", [](const PyResult& r) { return r.result.contour.closed; })
+        .def_property_readonly("vertices", [](const PyResult& r) { return contour_vertices(r.result.contour); },
+                               "(N,) int32: vertex ids in order, in the given direction.")
+        .def_property_readonly("edge_vertices", [](const PyResult& r) { return edge_vertices(r.result.contour); },
+                               "(N, 2) int32: point i lies at (1 - t) a + t b on the edge ab; a vertex is (v, v) with t = 0.")
+        .def_property_readonly("edge_parameters", [](const PyResult& r) { return edge_parameters(r.result.contour); },
+                               "(N,) float64: t of each point.")
+        .def_property_readonly("positions",
+                               [](const PyResult& r) { return rows_of_three(r.positions, [](const mrc::Vec3& p) { return p; }); },
+                               "(N, 3) float64.")
+        .def_property_readonly("segment_faces", [](const PyResult& r) { return to_array(r.segment_faces); },
+                               "(N,) int32: a face that holds the segment from each point to the next; along an edge the left one.")
+        .def("__repr__", [](const PyResult& r) {
+            return std::string("<mrcontour.Result: ") + status_name(r.result.status) + ", ratio " + std::to_string(r.result.initial_ratio) +
+                   " -> " + std::to_string(r.result.ratio) + ">";
+        });
+}
+
+}  // namespace mrc_python

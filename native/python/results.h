@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "arrays.h"
+
+#include <mrc/optimize.h>
+
+#include <vector>
+
+namespace mrc_python {
+
+/// What `optimize` gives to Python: the result, and what the surface says about its contour.
+struct PyResult {
+    mrc::Result result;
+    std::vector<mrc::Vec3> positions;
+    std::vector<int> segment_faces;
+};
+
+PyResult describe(const mrc::Surface& surface, mrc::Result result);
+
+Integers contour_vertices(const mrc::Contour& contour);
+
+}  // namespace mrc_python

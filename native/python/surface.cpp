@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "arrays.h"
+#include "bindings.h"
+
+#include <mrc/surface.h>
+
+#include <memory>
+
+namespace mrc_python {
+namespace {
+
+/// Face ids, or a mask over all faces.
+Integers face_ids(const py::object& faces) {
+    const py::array array = py::array::ensure(faces);
+    if (array && array.dtype().kind() == 'b') {
+        const py::object nonzero = py::module_::import("numpy").attr("flatnonzero")(array);
+        return integers(nonzero, "hidden_faces");
+    }
+    return integers(faces, "hidden_faces");
+}
+
+std::unique_ptr<mrc::Surface> make_surface(const py::object& positions, const py::object& face_offsets, const py::object& face_vertices,
+                                           const py::object& triangles, const py::object& hidden_faces) {
+    const Doubles points = doubles(positions, "positions");
+    require_shape(points, 3, "positions");
+    const Integers corners = integers(face_vertices, "face_vertices");
+    Integers offsets(0), triples(0), hidden(0);
+    if (face_offsets.is_none()) {
+        if (corners.size() > 0) require_shape(corners, 3, "face_vertices without face_offsets");
+    } else {
+        offsets = integers(face_offsets, "face_offsets");
+        require_shape(offsets, 0, "face_offsets");
+        require_shape(corners, 0, "face_vertices");
+        if (offsets.size() == 0) throw py::value_error("face_offsets is empty: it has one entry more than there are faces");
+    }
+    if (!triangles.is_none()) {
+        triples = integers(triangles, "triangles");
+        require_shape(triples, 3, "triangles");
+    }
+    if (!hidden_faces.is_none()) {
+        hidden = face_ids(hidden_faces);
+        require_shape(hidden, 0, "hidden_faces");
+    }
+    const mrc::SurfaceArrays arrays{view(points), view(offsets), view(corners), view(triples), view(hidden)};
+    const py::gil_scoped_release release;
+    return std::make_unique<mrc::Surface>(arrays);
+}
+
+}  // namespace
+
+void bind_surface(py::module_& module) {
+    py::class_<mrc::Surface>(module, "Surface",
+                             "A validated, immutable mesh with its adjacency. It keeps copies: the arrays may change afterwards.\n"
+                             "It may be used from several threads.")
+        .def(py::init(&make_surface), py::arg("positions"), py::arg("face_offsets"), py::arg("face_vertices"),
+             py::arg("triangles") = py::none(), py::arg("hidden_faces") = py::none(),
+             "positions: (V, 3) float64.\n"
+             "face_offsets: (F + 1,) int32; face i is face_vertices[face_offsets[i]:face_offsets[i + 1]]. None: all triangles.\n"
+             "face_vertices: (sum of corners,) int32, or (F, 3) where face_offsets is None.\n"
+             "triangles: (T, 3) int32, n - 2 for each face of n corners, in face order; None: made here.\n"
+             "hidden_faces: ids, or a mask of F bools: faces that no band enters.\n"
+             "Raises ValueError naming the elements: indices out of range, positions that are not finite, faces with fewer than\n"
+             "three or with repeated vertices, triangles that are no triangulation of their faces.")
+        .def_property_readonly("vertex_count", &mrc::Surface::vertex_count)
+        .def_property_readonly("face_count", &mrc::Surface::face_count)
+        .def_property_readonly("edge_count", &mrc::Surface::edge_count, "Real edges and diagonals.")
+        .def("__repr__", [](const mrc::Surface& s) {
+            return "<mrcontour.Surface: " + std::to_string(s.vertex_count()) + " vertices, " + std::to_string(s.face_count()) + " faces>";
+        });
+}
+
+}  // namespace mrc_python

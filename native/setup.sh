@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# shellcheck shell=bash
+# Sourced by tests/run and blend_samples/run: says what it installs, installs what is missing, builds.
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build=$root/build
+venv=$build/venv
+export PATH=/usr/bin:/bin:$PATH  # the distribution's own tools, and its Python: the one inside its Blender
+blender=${BLENDER:-/usr/bin/blender}
+python=/usr/bin/python3
+mkdir -p "$build/logs"
+
+build_packages=(g++ cmake ninja-build ccache libeigen3-dev libopenmesh-dev python3-dev python3-venv)
+python_requirements=("pybind11>=3.0,<4" "scikit-build-core>=0.11,<1" "numpy>=1.24,<3" "pytest>=8,<10" "hypothesis>=6.100,<7" "ruff>=0.17,<0.18")
+
+say() { printf '== %s\n' "$*"; }
+
+# Runs a command with its output in a log, which is shown where the command fails.
+logged() {  # NAME COMMAND...
+    local log=$build/logs/$1.log
+    "${@:2}" >"$log" 2>&1 || { cat "$log"; say "failed: ${*:2}" >&2; return 1; }
+}
+
+as_root() {
+    if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi
+}
+
+install_packages() {  # PACKAGE...
+    local installed missing
+    installed=$(dpkg-query -W -f='${db:Status-Status} ${Package}\n' "$@" 2>/dev/null | sed -n 's/^installed //p' || true)
+    mapfile -t missing < <(comm -23 <(printf '%s\n' "$@" | sort -u) <(sort -u <<<"$installed"))
+    if [ ${#missing[@]} = 0 ]; then return 0; fi
+    say "installing with apt: ${missing[*]}"
+    logged apt-update as_root apt-get update -q
+    logged apt-install as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}"
+}
+
+# Makes a virtual environment of the distribution's Python, unless it is there with the same contents.
+make_venv() {  # DIRECTORY REQUIREMENT...
+    local directory=$1 contents
+    shift
+    contents=$("$python" --version; printf '%s\n' "$directory" "$@")
+    if [ "$(cat "$directory/contents" 2>/dev/null)" = "$contents" ]; then return 0; fi
+    say "installing with pip into ${directory#"$root"/}:" "$@"
+    rm -rf "$directory"
+    logged venv "$python" -m venv "$directory" &&
+        logged "pip-$(basename "$directory")" "$directory/bin/python" -m pip install --disable-pip-version-check "$@" &&
+        echo "$contents" >"$directory/contents"
+}
+
+# Builds a preset in build/PRESET with the Python module; the add-on with its module lies in build/PRESET/addons.
+build_preset() {  # PRESET [CMAKE ARGUMENT...]
+    say "building: $1"
+    logged "configure-$1" cmake -S "$root" --preset "$1" -D MRC_PYTHON=ON -D Python_EXECUTABLE="$venv/bin/python" "${@:2}" &&
+        logged "build-$1" cmake --build "$build/$1" --parallel "$(nproc)"
+}
+
+set_up() {  # [PACKAGE...]: besides what the build needs
+    install_packages "${build_packages[@]}" "$@"
+    make_venv "$venv" "${python_requirements[@]}"
+}

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <mrc/band.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <tuple>
+
+namespace mrc {
+namespace {
+
+using Halfedge = PatchMesh::HalfedgeHandle;
+
+/// The real half-edges round each polygon, in its own direction.
+class PolygonSides {
+  public:
+    explicit PolygonSides(const Patch& patch) {
+        first_.push_back(0);
+        for (int p = 0; p < patch.polygon_count(); ++p) {
+            append(patch, p);
+            first_.push_back(static_cast<int>(sides_.size()));
+        }
+    }
+    std::span<const int> operator[](int polygon) const {
+        return std::span(sides_).subspan(first_[polygon], first_[polygon + 1] - first_[polygon]);
+    }
+
+  private:
+    std::vector<int> first_, sides_;
+
+    void append(const Patch& patch, int polygon) {
+        const PatchMesh& mesh = patch.mesh;
+        const auto next_side = [&](Halfedge h) {
+            h = mesh.next_halfedge_handle(h);
+            while (patch.diagonal_halfedge(h.idx())) h = mesh.next_halfedge_handle(mesh.opposite_halfedge_handle(h));
+            return h;
+        };
+        // A triangle of the polygon may have no real side; its first face's walk reaches one all the same.
+        const Halfedge start = next_side(mesh.halfedge_handle(PatchMesh::FaceHandle(patch.first_face[polygon])));
+        Halfedge h = start;
+        do {
+            sides_.push_back(h.idx());
+            h = next_side(h);
+        } while (h != start);
+    }
+};
+
+class Grower {
+  public:
+    explicit Grower(const Patch& patch) : patch_(patch), mesh_(patch.mesh), sides_(patch) {
+        band_.face.assign(mesh_.n_faces(), 0);
+        band_.side.assign(mesh_.n_vertices(), Side::outside);
+        band_.round.assign(mesh_.n_vertices(), -1);
+        front_.assign(mesh_.n_halfedges(), Side::outside);
+        polygon_in_.assign(patch.polygon_count(), 0);
+        order_polygons();
+        for (const int v : patch.contour) admit(v, Side::contour, 0);
+        for (std::size_t i = 0; i < patch.contour.size(); ++i) {
+            const Halfedge h = contour_halfedge(i);
+            front_[h.idx()] = Side::left;
+            front_[mesh_.opposite_halfedge_handle(h).idx()] = Side::right;
+        }
+        band_.left.push_back(patch.contour);
+        band_.right.push_back(patch.contour);
+    }
+
+    Band grow(std::optional<int> width) {
+        for (int round = 1; !width || round <= *width; ++round) {
+            if (!grow_round(round)) break;
+            band_.rounds = round;
+            band_.left.push_back(boundary(Side::left, band_.left.back()));
+            band_.right.push_back(boundary(Side::right, band_.right.back()));
+        }
+        mark_edges();
+        return std::move(band_);
+    }
+
+  private:
+    struct Chain {
+        int first = -1, length = 0;  // in the polygon's sides
+        Side side = Side::outside;
+    };
+
+    const Patch& patch_;
+    const PatchMesh& mesh_;
+    PolygonSides sides_;
+    Band band_;
+    std::vector<Side> front_;  // half-edges of outer polygons whose other side is in the band
+    std::vector<char> polygon_in_;
+    std::vector<int> rank_;    // of each polygon in the order of distance
+
+    Halfedge contour_halfedge(std::size_t i) const {
+        const int a = patch_.contour[i], b = patch_.contour[(i + 1) % patch_.contour.size()];
+        return mesh_.find_halfedge(PatchMesh::VertexHandle(a), PatchMesh::VertexHandle(b));
+    }
+    int from(int h) const { return mesh_.from_vertex_handle(Halfedge(h)).idx(); }
+    int to(int h) const { return mesh_.to_vertex_handle(Halfedge(h)).idx(); }
+    static int opposite(int h) { return h ^ 1; }
+    int polygon_of(int h) const {
+        const auto face = mesh_.face_handle(Halfedge(h));
+        return face.is_valid() ? patch_.polygon[face.idx()] : -1;
+    }
+    bool inside(int vertex) const { return band_.side[vertex] != Side::outside; }
+
+    void admit(int vertex, Side side, int round) {
+        band_.side[vertex] = side;
+        band_.round[vertex] = round;
+    }
+
+    /// Polygons compete in the order of distance, rounded so that equal ones stay equal under rounding; then of position.
+    void order_polygons() {
+        double length = 0.0;
+        for (std::size_t i = 0; i < patch_.contour.size(); ++i) length += mesh_.calc_edge_length(contour_halfedge(i));
+        using Key = std::tuple<double, double, double, double, int>;
+        std::vector<Key> keys;
+        for (int p = 0; p < patch_.polygon_count(); ++p) {
+            double distance = 0.0;
+            PatchMesh::Point centre(0.0);
+            for (const int h : sides_[p]) {
+                distance += patch_.distance[from(h)];
+                centre += mesh_.point(mesh_.from_vertex_handle(Halfedge(h)));
+            }
+            const auto count = static_cast<double>(sides_[p].size());
+            const double quantum = 1e-9 * length * count;
+            keys.emplace_back(std::round(distance / quantum), centre[0] / count, centre[1] / count, centre[2] / count, p);
+        }
+        std::ranges::sort(keys);
+        rank_.resize(keys.size());
+        for (std::size_t i = 0; i < keys.size(); ++i) rank_[std::get<4>(keys[i])] = static_cast<int>(i);
+    }
+
+    /// The one connected chain of front edges in which a polygon meets the band; length 0 where it may not enter.
+    Chain meeting(int polygon) const {
+        const auto sides = sides_[polygon];
+        const int count = static_cast<int>(sides.size());
+        Chain chain;
+        int fronts = 0, vertices = 0;
+        for (int i = 0; i < count; ++i) {
+            vertices += inside(from(sides[i]));
+            if (front_[sides[i]] == Side::outside) continue;
+            ++fronts;
+            const bool starts = front_[sides[(i + count - 1) % count]] == Side::outside;
+            if (!starts) continue;
+            if (chain.first >= 0) return {};
+            chain = {i, 0, front_[sides[i]]};
+        }
+        // The chain's own vertices and no others are in the band: so it stays an annulus, and both sides apart.
+        if (chain.first < 0 || fronts == count || vertices != fronts + 1) return {};
+        for (int i = 0; i < fronts; ++i) {
+            if (front_[sides[(chain.first + i) % count]] != chain.side) return {};
+        }
+        chain.length = fronts;
+        return chain;
+    }
+
+    void enter(int polygon, const Chain& chain, int round) {
+        const auto sides = sides_[polygon];
+        const int count = static_cast<int>(sides.size());
+        for (int i = 0; i < count; ++i) {
+            const int h = sides[(chain.first + i) % count];
+            if (i < chain.length) {
+                front_[h] = Side::outside;
+                continue;
+            }
+            front_[opposite(h)] = chain.side;
+            if (!inside(from(h))) admit(from(h), chain.side, round);
+        }
+        polygon_in_[polygon] = 1;
+        band_.polygons.push_back(polygon);
+        for (int f = patch_.first_face[polygon]; f < patch_.first_face[polygon + 1]; ++f) band_.face[f] = 1;
+    }
+
+    /// The polygons outside that share a vertex with the boundaries of the round before.
+    std::vector<int> candidates() const {
+        std::vector<int> found;
+        for (const auto* curve : {&band_.left.back(), &band_.right.back()}) {
+            for (const int v : *curve) {
+                for (const auto face : mesh_.vf_range(PatchMesh::VertexHandle(v))) {
+                    const int polygon = patch_.polygon[face.idx()];
+                    if (!polygon_in_[polygon]) found.push_back(polygon);
+                }
+            }
+        }
+        std::ranges::sort(found);
+        found.erase(std::ranges::unique(found).begin(), found.end());
+        return found;
+    }
+
+    /// One round of dilation. A polygon that may not enter yet is tried again after each neighbour that does.
+    bool grow_round(int round) {
+        std::vector<char> eligible(patch_.polygon_count(), 0);
+        using Entry = std::pair<int, int>;  // rank, polygon
+        std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+        for (const int polygon : candidates()) {
+            eligible[polygon] = 1;
+            queue.emplace(rank_[polygon], polygon);
+        }
+        bool grown = false;
+        while (!queue.empty()) {
+            const int polygon = queue.top().second;
+            queue.pop();
+            if (polygon_in_[polygon]) continue;
+            const Chain chain = meeting(polygon);
+            if (chain.length == 0) continue;
+            enter(polygon, chain, round);
+            grown = true;
+            for (const int h : sides_[polygon]) {
+                const int neighbour = polygon_of(opposite(h));
+                if (neighbour >= 0 && eligible[neighbour] && !polygon_in_[neighbour]) queue.emplace(rank_[neighbour], neighbour);
+            }
+        }
+        return grown;
+    }
+
+    void mark_edges() {
+        band_.edge.assign(mesh_.n_edges(), 0);
+        for (std::size_t i = 0; i < patch_.contour.size(); ++i) band_.edge[contour_halfedge(i).idx() / 2] = 1;
+        for (std::size_t f = 0; f < band_.face.size(); ++f) {
+            if (!band_.face[f]) continue;
+            for (const auto e : mesh_.fe_range(PatchMesh::FaceHandle(static_cast<int>(f)))) band_.edge[e.idx()] = 1;
+        }
+    }
+
+    /// Walks the front of one side. Left fronts run along with the contour, right ones against it.
+    std::vector<int> boundary(Side side, const std::vector<int>& last) const {
+        const auto front_from = [&](int vertex) {
+            for (const auto h : mesh_.voh_range(PatchMesh::VertexHandle(vertex))) {
+                if (front_[h.idx()] == side) return h.idx();
+            }
+            return -1;
+        };
+        int start = -1;
+        for (const int v : last) {
+            if (front_from(v) >= 0) {
+                start = v;
+                break;
+            }
+        }
+        if (start < 0) start = first_new_vertex(side);
+        std::vector<int> curve;
+        for (int v = start; curve.empty() || v != start; v = to(front_from(v))) curve.push_back(v);
+        if (side == Side::right) std::reverse(curve.begin() + 1, curve.end());
+        return curve;
+    }
+
+    /// Where a round left the last boundary altogether: the new boundary's vertex nearest to the contour's first one.
+    int first_new_vertex(Side side) const {
+        const auto origin = mesh_.point(PatchMesh::VertexHandle(patch_.contour[0]));
+        std::pair<double, int> best{std::numeric_limits<double>::infinity(), -1};
+        for (std::size_t h = 0; h < front_.size(); ++h) {
+            if (front_[h] != side) continue;
+            const int v = from(static_cast<int>(h));
+            best = std::min(best, {(mesh_.point(PatchMesh::VertexHandle(v)) - origin).norm(), v});
+        }
+        return best.second;
+    }
+};
+
+}  // namespace
+
+Band grow_band(const Patch& patch, const Options& options) { return Grower(patch).grow(options.width); }
+
+}  // namespace mrc

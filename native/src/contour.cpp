@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <mrc/contour.h>
+
+#include "levels.h"
+
+#include <algorithm>
+
+namespace mrc {
+namespace {
+
+/// The polygons round a vertex or beside an edge.
+std::vector<int> faces_at(const Surface& surface, const SurfacePoint& point) {
+    std::vector<int> faces;
+    for (const int h : surface.outgoing(point.a)) {
+        if (point.is_vertex() || surface.to(h) == point.b) faces.push_back(surface.halfedge_face(h));
+    }
+    if (point.is_vertex()) return faces;
+    for (const int h : surface.outgoing(point.b)) {
+        if (surface.to(h) == point.a) faces.push_back(surface.halfedge_face(h));
+    }
+    return faces;
+}
+
+int face_of_segment(const Surface& surface, const SurfacePoint& p, const SurfacePoint& q) {
+    if (p.is_vertex() && q.is_vertex()) {
+        if (const int left = surface.find_halfedge(p.a, q.a); left >= 0) return surface.halfedge_face(left);
+    }
+    const std::vector<int> candidates = faces_at(surface, q);
+    for (const int face : faces_at(surface, p)) {
+        if (std::ranges::find(candidates, face) != candidates.end()) return face;
+    }
+    return -1;
+}
+
+}  // namespace
+
+Contour trace_contour(const ContourGraph& graph, const Patch& patch, const Flow& flow, std::span<const int> nodes) {
+    // The last node of a closed path is the first again.
+    std::vector<int> points;
+    for (const int node : nodes.first(nodes.size() - 1)) points.push_back(graph.chords[graph.chord_of(node)].head);
+    const double start = above(flow.value[patch.contour[0]], graph.level) - 1e-9;
+    const auto behind = [&](int p) { return above(graph.points[p].level, start); };
+    std::ranges::rotate(points, std::ranges::min_element(points, {}, behind));
+    Contour contour;
+    for (const int p : points) contour.points.push_back(graph.points[p].place);
+    return contour;
+}
+
+std::vector<int> segment_faces(const Surface& surface, const Contour& contour) {
+    std::vector<int> faces;
+    const std::size_t count = contour.points.size();
+    for (std::size_t i = 0; i + (contour.closed ? 0 : 1) < count; ++i) {
+        faces.push_back(face_of_segment(surface, contour.points[i], contour.points[(i + 1) % count]));
+    }
+    return faces;
+}
+
+}  // namespace mrc

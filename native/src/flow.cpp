@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <mrc/flow.h>
+
+#include "strip_flow.h"
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+
+namespace mrc {
+namespace {
+
+using Halfedge = PatchMesh::HalfedgeHandle;
+
+int opposite(int h) { return h ^ 1; }
+
+/// The half-edges through which a shortest chain of faces leaves the band, starting at the face of half-edge `first` and keeping
+/// off the contour. Empty where `first` itself is on the band's border.
+std::vector<int> way_out(const Patch& patch, const Band& band, int first) {
+    const PatchMesh& mesh = patch.mesh;
+    const auto face_of = [&](int h) {
+        const auto face = mesh.face_handle(Halfedge(h));
+        return face.is_valid() && band.face[face.idx()] ? face.idx() : -1;
+    };
+    std::vector<char> met(mesh.n_faces(), 0), wall(mesh.n_halfedges(), 0);
+    const std::size_t count = patch.contour.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto h = mesh.find_halfedge(PatchMesh::VertexHandle(patch.contour[i]), PatchMesh::VertexHandle(patch.contour[(i + 1) % count]));
+        wall[h.idx()] = wall[opposite(h.idx())] = 1;
+    }
+    struct Step {
+        int face, through, before;  // the face, the half-edge of the last face that led here, and that step
+    };
+    std::vector<Step> steps;
+    const auto enter = [&](int face, int through, int before) {
+        if (met[face]) return;
+        met[face] = 1;
+        steps.push_back({face, through, before});
+    };
+    if (face_of(first) >= 0) enter(face_of(first), -1, -1);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        for (const auto h : mesh.fh_range(PatchMesh::FaceHandle(steps[i].face))) {
+            if (wall[h.idx()]) continue;
+            if (face_of(opposite(h.idx())) >= 0) {
+                enter(face_of(opposite(h.idx())), h.idx(), static_cast<int>(i));
+                continue;
+            }
+            std::vector<int> way{h.idx()};
+            for (int s = static_cast<int>(i); steps[s].before >= 0; s = steps[s].before) way.push_back(steps[s].through);
+            return way;
+        }
+    }
+    return {};
+}
+
+/// A closed 1-form of whole numbers with period 1: it counts the crossings of a chain of faces across the band.
+std::vector<int> crossing_form(const Patch& patch, const Band& band) {
+    std::vector<int> jump(patch.mesh.n_halfedges(), 0);
+    const auto h = patch.mesh.find_halfedge(PatchMesh::VertexHandle(patch.contour[0]), PatchMesh::VertexHandle(patch.contour[1])).idx();
+    const auto cross = [&](int halfedge, int sign) {
+        jump[halfedge] += sign;
+        jump[opposite(halfedge)] -= sign;
+    };
+    // The chain runs from right to left; what crosses it from its left to its right runs along with the contour.
+    cross(h, 1);
+    for (const int leaving : way_out(patch, band, h)) cross(leaving, -1);
+    for (const int leaving : way_out(patch, band, opposite(h))) cross(leaving, 1);
+    return jump;
+}
+
+/// The harmonic flow: of all flows the one of least sum of squared increments over the real edges.
+Flow harmonic_flow(const Patch& patch, const Band& band) {
+    const PatchMesh& mesh = patch.mesh;
+    Flow flow{std::vector<double>(mesh.n_vertices(), 0.0), crossing_form(patch, band)};
+    std::vector<int> unknown(mesh.n_vertices(), -1);
+    int count = 0;
+    for (std::size_t v = 0; v < unknown.size(); ++v) {
+        const bool grounded = static_cast<int>(v) == patch.contour[0];
+        if (band.side[v] != Side::outside && !grounded) unknown[v] = count++;
+    }
+    std::vector<Eigen::Triplet<double>> entries;
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
+    const auto add = [&](int a, int b, int jump) {  // the equation of vertex a: sum over b of (u_a - u_b) = sum of jumps
+        if (unknown[a] < 0) return;
+        entries.emplace_back(unknown[a], unknown[a], 1.0);
+        if (unknown[b] >= 0) entries.emplace_back(unknown[a], unknown[b], -1.0);
+        right[unknown[a]] += jump;
+    };
+    for (int h = 0; h < static_cast<int>(mesh.n_halfedges()); h += 2) {
+        if (!band.edge[h / 2] || patch.diagonal_halfedge(h)) continue;
+        const int a = mesh.from_vertex_handle(Halfedge(h)).idx(), b = mesh.to_vertex_handle(Halfedge(h)).idx();
+        add(a, b, flow.jump[h]);
+        add(b, a, flow.jump[opposite(h)]);
+    }
+    Eigen::SparseMatrix<double> matrix(count, count);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
+    const Eigen::VectorXd solution = solver.solve(right);
+    for (std::size_t v = 0; v < unknown.size(); ++v) {
+        if (unknown[v] >= 0) flow.value[v] = solution[unknown[v]];
+    }
+    return flow;
+}
+
+}  // namespace
+
+Flow make_flow(const Surface& surface, const Patch& patch, const Band& band, const Options& options) {
+    return options.flow == FlowKind::harmonic ? harmonic_flow(patch, band) : strip_flow(surface, patch, band, options);
+}
+
+}  // namespace mrc

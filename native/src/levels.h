@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+namespace mrc {
+
+/// An undirected segment of the graph: from a to b the flow rises by values[b] - values[a] + jump.
+struct Segment {
+    int a, b, jump, face;
+};
+
+/// The whole and the broken part of a flow value above the cut.
+inline int whole(double value, double level) { return static_cast<int>(std::floor(value - level)); }
+inline double above(double value, double level) { return value - level - std::floor(value - level); }
+
+/// Gives points joined by segments with increments below 1e-9 one value, their mean, so that being level is transitive. Values and
+/// jumps change together: the increment of a segment within such a class is exactly 0.
+void merge_levels(std::vector<double>& values, std::vector<Segment>& segments);
+
+/// A level through no point that the fewest segments cross; of those the one in the widest gap.
+double cheapest_level(const std::vector<double>& values, const std::vector<Segment>& segments);
+
+}  // namespace mrc
