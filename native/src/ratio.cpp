@@ -26,10 +26,10 @@ class Search {
             std::vector<int> set = std::move(open.back());
             open.pop_back();
             set = descend(std::move(set));
-            if (set.size() < 2) continue;
+            // A pair alone is always decided, so what is split here gets smaller.
             const auto middle = set.begin() + static_cast<std::ptrdiff_t>(set.size() / 2);
-            open.emplace_back(middle, set.end());
-            open.emplace_back(set.begin(), middle);
+            if (middle != set.end()) open.emplace_back(middle, set.end());
+            if (middle != set.begin()) open.emplace_back(set.begin(), middle);
         }
         result_.lower_bound = lambda_;
         return std::move(result_);

@@ -39,8 +39,6 @@ class Complaints {
 
 std::string name(const char* kind, int64_t id) { return std::string(kind) + " " + std::to_string(id); }
 
-std::string side_name(int a, int b) { return std::to_string(a) + "-" + std::to_string(b); }
-
 bool outside(int id, int count) { return static_cast<unsigned>(id) >= static_cast<unsigned>(count); }
 
 std::string range_text(int count) {
@@ -166,117 +164,6 @@ std::vector<uint8_t> mark_hidden(std::span<const int32_t> hidden_faces, int face
     return hidden;
 }
 
-// Tells the sides of a polygon from the diagonals of its triangulation, pairs the diagonals, and finds what is wrong.
-//
-// Reason that the test suffices: n - 2 triangles that hold each of the n sides once in the polygon's direction, and every other
-// edge twice in opposite directions, form a surface with the polygon as its one border and Euler characteristic 1: a disk.
-class PolygonSides {
-  public:
-    explicit PolygonSides(int vertex_count) : vertex_count_(vertex_count) {}
-
-    // Reads the triangles of one polygon, of which the first has the given id; false: they are no triangulation.
-    bool read(std::span<const int> polygon, std::span<const Triangle> triangles, int first_triangle) {
-        fault_.clear();
-        diagonals_.clear();
-        seen_.assign(polygon.size(), 0);
-        corner_.resize(vertex_count_);
-        for (size_t i = 0; i < polygon.size(); ++i) corner_[polygon[i]] = static_cast<int>(i);
-        int halfedge = 3 * first_triangle;
-        for (const Triangle& t : triangles) {
-            for (int c = 0; c < 3; ++c, ++halfedge) {
-                if (!read_side(polygon, t[c], t[c == 2 ? 0 : c + 1], halfedge)) return false;
-            }
-        }
-        const size_t missing = static_cast<size_t>(std::ranges::find(seen_, 0) - seen_.begin());
-        if (missing == seen_.size()) return pair_diagonals(polygon);
-        fault_ = "side " + side_name(polygon[missing], polygon[(missing + 1) % polygon.size()]) + " is missing";
-        return false;
-    }
-
-    // The same for triangles and quads that start at the usual corner: true where it is one.
-    bool read_plain(std::span<const int> polygon, std::span<const Triangle> t, int first_triangle) {
-        diagonals_.clear();
-        const auto is = [&](size_t triangle, int a, int b, int c) {
-            return t[triangle][0] == polygon[a] && t[triangle][1] == polygon[b] && t[triangle][2] == polygon[c];
-        };
-        if (polygon.size() == 3) return is(0, 0, 1, 2);
-        if (polygon.size() > 4) return false;
-        const int h = 3 * first_triangle;
-        if (is(0, 0, 1, 2) && is(1, 0, 2, 3)) {
-            diagonals_.assign({{0, 2, false, h + 2}, {0, 2, true, h + 3}});
-        } else if (is(0, 0, 1, 3) && is(1, 1, 2, 3)) {
-            diagonals_.assign({{1, 3, true, h + 1}, {1, 3, false, h + 5}});
-        }
-        return !diagonals_.empty();
-    }
-
-    // Calls visit(a, b) for the two half-edges of each diagonal of the polygon read last, a < b.
-    template <class Visit>
-    void for_each_diagonal(Visit&& visit) const {
-        for (size_t i = 0; i < diagonals_.size(); i += 2) {
-            const auto [a, b] = std::minmax(diagonals_[i].halfedge, diagonals_[i + 1].halfedge);
-            visit(a, b);
-        }
-    }
-
-    const std::string& fault() const { return fault_; }
-
-  private:
-    struct Diagonal {
-        int low, high;  // corners
-        bool rising;
-        int halfedge;
-        auto operator<=>(const Diagonal&) const = default;
-    };
-    int vertex_count_;
-    std::vector<int> corner_;  // of the vertices of the polygon read last; of others, anything
-    std::vector<uint8_t> seen_;
-    std::vector<Diagonal> diagonals_;
-    std::string fault_;
-
-    bool holds(std::span<const int> polygon, int vertex) const {
-        if (outside(vertex, vertex_count_)) return false;
-        const size_t corner = static_cast<size_t>(corner_[vertex]);
-        return corner < polygon.size() && polygon[corner] == vertex;
-    }
-
-    bool read_side(std::span<const int> polygon, int a, int b, int halfedge) {
-        const auto triangle = [&] { return name("triangle", halfedge / 3); };
-        for (const int v : {a, b}) {
-            if (holds(polygon, v)) continue;
-            fault_ = name("vertex", v) + " of " + triangle() + " is not in the face";
-            return false;
-        }
-        const int n = static_cast<int>(polygon.size());
-        const int i = corner_[a];
-        const int j = corner_[b];
-        if (i == j) {
-            fault_ = triangle() + " repeats " + name("vertex", a);
-        } else if (i == (j + 1) % n) {
-            fault_ = triangle() + " runs against side " + side_name(b, a);
-        } else if (j != (i + 1) % n) {
-            diagonals_.push_back({std::min(i, j), std::max(i, j), i < j, halfedge});
-        } else if (seen_[i]++ != 0) {
-            fault_ = "side " + side_name(a, b) + " occurs more than once";
-        }
-        return fault_.empty();
-    }
-
-    bool pair_diagonals(std::span<const int> polygon) {
-        std::ranges::sort(diagonals_);
-        const auto same = [&](size_t i, size_t k) {
-            return k < diagonals_.size() && diagonals_[k].low == diagonals_[i].low && diagonals_[k].high == diagonals_[i].high;
-        };
-        for (size_t i = 0; i < diagonals_.size(); i += 2) {
-            if (same(i, i + 1) && !same(i, i + 2) && diagonals_[i].rising != diagonals_[i + 1].rising) continue;
-            fault_ = "diagonal " + side_name(polygon[diagonals_[i].low], polygon[diagonals_[i].high]) +
-                     " must occur twice, once in each direction";
-            return false;
-        }
-        return true;
-    }
-};
-
 std::vector<Triangle> to_triangles(std::span<const int32_t> vertices) {
     std::vector<Triangle> triangles(vertices.size() / 3);
     if (!triangles.empty()) std::memcpy(triangles.data(), vertices.data(), vertices.size_bytes());
@@ -389,7 +276,7 @@ void Surface::pair_diagonals() {
         const int first = first_triangle(f);
         const auto triangles = std::span(triangles_).subspan(first, polygon.size() - 2);
         std::fill_n(triangle_faces_.begin() + first, triangles.size(), f);
-        if (sides.read_plain(polygon, triangles, first) || sides.read(polygon, triangles, first)) {
+        if (sides.read(polygon, triangles, first)) {
             sides.for_each_diagonal(pair);
         } else {
             complaints.add([&] { return "the triangles of " + name("face", f) + " do not make up its polygon: " + sides.fault(); });

@@ -4,8 +4,6 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 
 namespace mrc {
 namespace {
@@ -43,6 +41,8 @@ int quad_diagonal(std::span<const Vec3> q) {
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 double orientation(const Vec2& a, const Vec2& b, const Vec2& c) { return cross(b - a, c - a); }
+
+std::string side_name(int a, int b) { return std::to_string(a) + "-" + std::to_string(b); }
 
 }  // namespace
 
@@ -121,11 +121,87 @@ void Triangulator::clip(int corner) {
     triangles_.push_back({before, corner, after});
     next_[before] = after;
     previous_[after] = before;
-    std::erase_if(blunt_, [&](int i) { return (i == before || i == after) && convex(i); });
 }
 
 void Triangulator::fan(int corner, int count) {
     for (int i = next_[corner]; count > 2; --count, i = next_[i]) triangles_.push_back({corner, i, next_[i]});
+}
+
+bool PolygonSides::read(std::span<const int> polygon, std::span<const std::array<int, 3>> triangles, int first_triangle) {
+    diagonals_.clear();
+    if (read_plain(polygon, triangles, first_triangle)) return true;
+    fault_.clear();
+    seen_.assign(polygon.size(), 0);
+    corner_.resize(vertex_count_);
+    for (size_t i = 0; i < polygon.size(); ++i) corner_[polygon[i]] = static_cast<int>(i);
+    int halfedge = 3 * first_triangle;
+    for (const auto& t : triangles) {
+        for (int c = 0; c < 3; ++c, ++halfedge) {
+            if (!read_side(polygon, t[c], t[c == 2 ? 0 : c + 1], halfedge)) return false;
+        }
+    }
+    const size_t missing = static_cast<size_t>(std::ranges::find(seen_, 0) - seen_.begin());
+    if (missing == seen_.size()) return pair_diagonals(polygon);
+    fault_ = "side " + side_name(polygon[missing], polygon[(missing + 1) % polygon.size()]) + " is missing";
+    return false;
+}
+
+// The quick way for triangles and quads whose triangles start where they usually do.
+bool PolygonSides::read_plain(std::span<const int> polygon, std::span<const std::array<int, 3>> triangles, int first_triangle) {
+    const auto is = [&](size_t triangle, int a, int b, int c) {
+        return triangles[triangle] == std::array{polygon[a], polygon[b], polygon[c]};
+    };
+    if (polygon.size() == 3) return is(0, 0, 1, 2);
+    if (polygon.size() > 4) return false;
+    const int h = 3 * first_triangle;
+    if (is(0, 0, 1, 2) && is(1, 0, 2, 3)) {
+        diagonals_.assign({{0, 2, false, h + 2}, {0, 2, true, h + 3}});
+    } else if (is(0, 0, 1, 3) && is(1, 1, 2, 3)) {
+        diagonals_.assign({{1, 3, true, h + 1}, {1, 3, false, h + 5}});
+    }
+    return !diagonals_.empty();
+}
+
+bool PolygonSides::read_side(std::span<const int> polygon, int a, int b, int halfedge) {
+    const auto triangle = [&] { return "triangle " + std::to_string(halfedge / 3); };
+    for (const int v : {a, b}) {
+        if (holds(polygon, v)) continue;
+        fault_ = "vertex " + std::to_string(v) + " of " + triangle() + " is not in the face";
+        return false;
+    }
+    const int n = static_cast<int>(polygon.size());
+    const int i = corner_[a];
+    const int j = corner_[b];
+    if (i == j) {
+        fault_ = triangle() + " repeats vertex " + std::to_string(a);
+    } else if (i == (j + 1) % n) {
+        fault_ = triangle() + " runs against side " + side_name(b, a);
+    } else if (j != (i + 1) % n) {
+        diagonals_.push_back({std::min(i, j), std::max(i, j), i < j, halfedge});
+    } else if (seen_[i]++ != 0) {
+        fault_ = "side " + side_name(a, b) + " occurs more than once";
+    }
+    return fault_.empty();
+}
+
+bool PolygonSides::holds(std::span<const int> polygon, int vertex) const {
+    if (vertex < 0 || vertex >= vertex_count_) return false;
+    const size_t corner = static_cast<size_t>(corner_[vertex]);
+    return corner < polygon.size() && polygon[corner] == vertex;
+}
+
+bool PolygonSides::pair_diagonals(std::span<const int> polygon) {
+    // Sorted, the two half-edges of a diagonal are neighbours. A diagonal that occurs more often fails here as well: its first two
+    // run in the same direction, as they are sorted by that next.
+    std::ranges::sort(diagonals_);
+    for (size_t i = 0; i < diagonals_.size(); i += 2) {
+        const Diagonal& first = diagonals_[i];
+        const Diagonal second = i + 1 < diagonals_.size() ? diagonals_[i + 1] : Diagonal{};
+        if (first.low == second.low && first.high == second.high && first.rising != second.rising) continue;
+        fault_ = "diagonal " + side_name(polygon[first.low], polygon[first.high]) + " must occur twice, once in each direction";
+        return false;
+    }
+    return true;
 }
 
 }  // namespace mrc

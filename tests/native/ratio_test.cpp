@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "thesis_search.h"
+
+#include <mrc/ratio.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+namespace {
+
+using mrc::WeightedGraph;
+
+/// A random acyclic graph of layers, as a band has them: sources, layers of nodes, destinations.
+WeightedGraph random_graph(unsigned seed, bool matched, int width = 5, int layers = 5) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> weight(-1.0, 1.0), length(0.1, 2.0), chance(0.0, 1.0);
+    WeightedGraph graph;
+    graph.matched = matched;
+    const int ends = 1 + static_cast<int>(random() % static_cast<unsigned>(width));
+    std::vector<int> last;
+    const auto add_node = [&](const std::vector<int>& before) {
+        const int node = static_cast<int>(graph.first_arc.size());
+        graph.first_arc.push_back(static_cast<int>(graph.from.size()));
+        for (const int p : before) {
+            if (chance(random) > 0.6) continue;
+            graph.from.push_back(p);
+            graph.f.push_back(weight(random));
+            graph.g.push_back(length(random));
+        }
+        return node;
+    };
+    for (int i = 0; i < ends; ++i) last.push_back(add_node({}));
+    for (const int s : last) graph.sources.push_back({s, matched ? 0.0 : weight(random), matched ? 0.0 : length(random)});
+    std::vector<int> all = last;
+    for (int layer = 0; layer < layers; ++layer) {
+        std::vector<int> next;
+        for (int i = 0; i < width; ++i) next.push_back(add_node(layer % 2 ? all : last));
+        all.insert(all.end(), next.begin(), next.end());
+        last = next;
+    }
+    for (int i = 0; i < ends; ++i) {
+        graph.destinations.push_back({add_node(last), matched ? 0.0 : weight(random), matched ? 0.0 : length(random)});
+    }
+    graph.first_arc.push_back(static_cast<int>(graph.from.size()));
+    return graph;
+}
+
+/// The least ratio by walking every path backwards from its destination.
+double brute_force(const WeightedGraph& graph) {
+    double best = std::numeric_limits<double>::infinity();
+    for (std::size_t j = 0; j < graph.destinations.size(); ++j) {
+        const std::function<void(int, double, double)> walk = [&](int node, double f, double g) {
+            for (std::size_t i = 0; i < graph.sources.size(); ++i) {
+                if (graph.sources[i].node != node || (graph.matched && i != j)) continue;
+                best = std::min(best, (f + graph.sources[i].f) / (g + graph.sources[i].g));
+            }
+            for (int a = graph.first_arc[node]; a < graph.first_arc[node + 1]; ++a) walk(graph.from[a], f + graph.f[a], g + graph.g[a]);
+        };
+        walk(graph.destinations[j].node, graph.destinations[j].f, graph.destinations[j].g);
+    }
+    return best;
+}
+
+/// The ratio of a path, summed from the graph itself.
+double ratio_of(const WeightedGraph& graph, const std::vector<int>& nodes) {
+    double f = 0.0, g = 0.0;
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+        for (int a = graph.first_arc[nodes[i + 1]]; a < graph.first_arc[nodes[i + 1] + 1]; ++a) {
+            if (graph.from[a] == nodes[i]) {
+                f += graph.f[a];
+                g += graph.g[a];
+            }
+        }
+    }
+    const auto at = [](int node) { return [node](const mrc::Terminal& t) { return t.node == node; }; };
+    const auto source = std::ranges::find_if(graph.sources, at(nodes.front()));
+    const auto end = std::ranges::find_if(graph.destinations, at(nodes.back()));
+    EXPECT_NE(source, graph.sources.end());
+    EXPECT_NE(end, graph.destinations.end());
+    if (graph.matched) {
+        EXPECT_EQ(source - graph.sources.begin(), end - graph.destinations.begin());
+    }
+    return (f + source->f + end->f) / (g + source->g + end->g);
+}
+
+class RandomGraphs : public testing::TestWithParam<bool> {};
+
+TEST_P(RandomGraphs, optimum_is_that_of_brute_force_and_of_the_thesis) {
+    int found = 0;
+    for (unsigned seed = 0; seed < 500; ++seed) {
+        const WeightedGraph graph = random_graph(seed, GetParam());
+        const double expected = brute_force(graph);
+        const mrc::RatioResult result = mrc::minimum_ratio(graph);
+        const mrc_test::LinearSearch thesis = mrc_test::thesis_search(graph);
+        ASSERT_EQ(result.found, std::isfinite(expected)) << "seed " << seed;
+        ASSERT_EQ(thesis.found, result.found);
+        if (!result.found) continue;
+        ++found;
+        EXPECT_NEAR(result.ratio, expected, 1e-12 * (1.0 + std::abs(expected))) << "seed " << seed;
+        EXPECT_NEAR(thesis.ratio, expected, 1e-12 * (1.0 + std::abs(expected))) << "seed " << seed;
+        EXPECT_NEAR(ratio_of(graph, result.nodes), result.ratio, 1e-12);
+        EXPECT_NEAR(mrc_test::shared_lambda_search(graph).ratio, expected, 1e-12 * (1.0 + std::abs(expected)));
+    }
+    EXPECT_GT(found, 300);
+}
+
+TEST_P(RandomGraphs, certificate_bounds_every_path_and_meets_the_best) {
+    for (unsigned seed = 1000; seed < 1200; ++seed) {
+        const WeightedGraph graph = random_graph(seed, GetParam());
+        const mrc::RatioResult result = mrc::minimum_ratio(graph);
+        if (!result.found) continue;
+        EXPECT_LE(result.lower_bound, brute_force(graph) + 1e-12);
+        EXPECT_NEAR(result.lower_bound, result.ratio, 1e-12);
+    }
+}
+
+TEST_P(RandomGraphs, a_start_below_the_optimum_finds_nothing_and_one_above_finds_it) {
+    for (unsigned seed = 2000; seed < 2100; ++seed) {
+        const WeightedGraph graph = random_graph(seed, GetParam());
+        const mrc::RatioResult best = mrc::minimum_ratio(graph);
+        if (!best.found) continue;
+        EXPECT_FALSE(mrc::minimum_ratio(graph, {.below = best.ratio - 1e-6}).found);
+        const mrc::RatioResult warm = mrc::minimum_ratio(graph, {.below = best.ratio + 1e-3});
+        EXPECT_TRUE(warm.found);
+        EXPECT_NEAR(warm.ratio, best.ratio, 1e-12);
+        EXPECT_LE(warm.passes, best.passes);
+    }
+}
+
+TEST_P(RandomGraphs, adding_a_multiple_of_g_to_f_moves_the_ratio_and_nothing_else) {
+    for (unsigned seed = 3000; seed < 3100; ++seed) {
+        WeightedGraph graph = random_graph(seed, GetParam());
+        const mrc::RatioResult before = mrc::minimum_ratio(graph);
+        if (!before.found) continue;
+        for (int a = 0; a < graph.arc_count(); ++a) graph.f[a] += 3.0 * graph.g[a];
+        for (auto* ends : {&graph.sources, &graph.destinations}) {
+            for (mrc::Terminal& t : *ends) t.f += 3.0 * t.g;
+        }
+        const mrc::RatioResult after = mrc::minimum_ratio(graph);
+        EXPECT_EQ(after.nodes, before.nodes);
+        EXPECT_NEAR(after.ratio, before.ratio + 3.0, 1e-11);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Pairs, RandomGraphs, testing::Bool(), [](const auto& info) { return info.param ? "matched" : "any"; });
+
+TEST(Ratio, bounds_save_passes_over_one_search_a_source) {
+    int ours = 0, thesis = 0;
+    for (unsigned seed = 0; seed < 30; ++seed) {
+        const WeightedGraph graph = random_graph(seed, true, 20, 12);
+        ours += mrc::minimum_ratio(graph).passes;
+        thesis += mrc_test::thesis_search(graph).passes;
+    }
+    EXPECT_LT(ours, thesis);
+}
+
+TEST(Ratio, a_graph_without_a_path_has_no_result) {
+    WeightedGraph graph;
+    graph.first_arc = {0, 0, 0};
+    graph.sources = {{0, 0.0, 0.0}};
+    graph.destinations = {{1, 0.0, 0.0}};
+    EXPECT_FALSE(mrc::minimum_ratio(graph).found);
+    graph.sources.clear();
+    graph.destinations.clear();
+    EXPECT_FALSE(mrc::minimum_ratio(graph).found);
+}
+
+}  // namespace
