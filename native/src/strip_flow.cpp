@@ -22,6 +22,8 @@ constexpr double least_edge = 1e-3;         // arc length of an edge, in the str
 constexpr double same_length = 1.0 - 1e-9;  // two lengths whose ratio is nearer to 1 differ by rounding only
 constexpr int off_strip = std::numeric_limits<int>::min();
 
+Halfedge halfedge(const PatchMesh& mesh, int a, int b) { return Halfedge(mesh.find_halfedge(Vertex(a), Vertex(b)).idx()); }
+
 Curve across(const std::vector<int>& before, int last) {
     Curve path;
     for (int v = last; v >= 0; v = before[v]) path.push_back(v);
@@ -70,9 +72,8 @@ void mark_behind(const Patch& patch, const Band& band, Halfedge left_border, Cut
     const PatchMesh& mesh = patch.mesh;
     const auto in_band = [&](Halfedge h) { return mesh.face_handle(h).is_valid() && band.face[mesh.face_handle(h).idx()]; };
     for (size_t k = 0; k < cut.line.size(); ++k) {
-        const Vertex v(cut.line[k]);
-        Halfedge h = k + 1 < cut.line.size() ? mesh.find_halfedge(v, Vertex(cut.line[k + 1])) : left_border;
-        const Halfedge stop = k > 0 ? mesh.find_halfedge(v, Vertex(cut.line[k - 1])) : Halfedge();
+        Halfedge h = k + 1 < cut.line.size() ? halfedge(mesh, cut.line[k], cut.line[k + 1]) : left_border;
+        const Halfedge stop = k > 0 ? halfedge(mesh, cut.line[k], cut.line[k - 1]) : Halfedge();
         for (; h != stop && in_band(h); h = mesh.opposite_halfedge_handle(mesh.prev_halfedge_handle(h))) cut.behind[h.idx()] = 1;
     }
 }
@@ -83,7 +84,7 @@ Cut cut_open(const Patch& patch, const Band& band, const std::vector<Curve>& str
             std::vector<int>(mesh.n_halfedges(), 0)};
     const Curve& left = strips.back();
     const auto end = std::find(left.begin(), left.end(), cut.line.back());
-    const Halfedge border = mesh.find_halfedge(Vertex(*end), Vertex(end == left.begin() ? left.back() : *(end - 1)));
+    const Halfedge border = halfedge(mesh, *end, end == left.begin() ? left.back() : *(end - 1));
     mark_behind(patch, band, border, cut);
     for (const auto f : mesh.faces()) {
         if (!band.face[f.idx()]) continue;
@@ -173,7 +174,7 @@ class Profile {
 
     void bring_home(Gate& gate) const {
         const double turns = std::floor((gate.arc - first_.arc) / length_);
-        gate.arc -= turns * length_;
+        gate.arc = std::clamp(gate.arc - turns * length_, first_.arc, first_.arc + length_);
         gate.flow -= turns;
     }
 };
@@ -195,9 +196,8 @@ class StripFlow {
         const auto middle = std::find(strips_.begin(), strips_.end(), band_.left.front());
         const Strip contour = measured_contour(*middle);
         spread(contour, std::vector<Curve>(middle + 1, strips_.end()));
-        std::reverse(cut_.line.begin(), cut_.line.end());
         spread(contour, std::vector<Curve>(std::make_reverse_iterator(middle), strips_.rend()));
-        return {std::move(value_), std::move(cut_.jump)};
+        return {std::move(value_), cut_.jump};
     }
 
   private:
@@ -206,7 +206,7 @@ class StripFlow {
     const Band& band_;
     const FlowKind kind_;
     const std::vector<Curve> strips_;
-    Cut cut_;
+    const Cut cut_;
     std::vector<double> value_;
     // Of each vertex: its place on the known and on the next strip, as seen in the band cut open, or `off_strip`.
     std::vector<int> known_index_, next_index_;
@@ -216,8 +216,7 @@ class StripFlow {
     Strip unroll(const Curve& curve) const {
         Strip strip{curve, {0}, {0.0}, {}, 0.0};
         std::vector<Halfedge> edges;
-        for (size_t i = 0; i < curve.size(); ++i)
-            edges.push_back(mesh_.find_halfedge(Vertex(curve[i]), Vertex(curve[(i + 1) % curve.size()])));
+        for (size_t i = 0; i < curve.size(); ++i) edges.push_back(halfedge(mesh_, curve[i], curve[(i + 1) % curve.size()]));
         double total = 0.0;
         for (const Halfedge h : edges) total += mesh_.calc_edge_length(h);
         const double least = total > 0.0 ? least_edge * total / static_cast<double>(edges.size()) : 1.0;
@@ -239,7 +238,7 @@ class StripFlow {
         for (const int v : strip.vertices) index[v] = off_strip;
     }
 
-    /// Where a strip starts: at its first vertex on the start line. The start line is in the band cut open: lap 0 of its values.
+    /// Where a strip starts: at the first vertex of the start line on it, as seen in the band cut open.
     double start_arc(const Strip& strip, const std::vector<int>& index) const {
         const auto first = std::find_if(cut_.line.begin(), cut_.line.end(), [&](int v) { return index[v] != off_strip; });
         return strip.arc_at(index[*first]);

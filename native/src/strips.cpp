@@ -92,7 +92,6 @@ int SideReplay::find_layer(int polygon, const std::vector<int>& inner, const std
     }
     for (const int h : outer) stays_[from(h)] = stays_[to(h)] = polygon;
     int layer = base_;
-    for (const int h : outer) layer = std::max({layer, latest_[from(h)], latest_[to(h)]});
     for (const int h : inner)
         for (const int v : {from(h), to(h)}) layer = std::max({layer, latest_[v], stays_[v] == polygon ? 0 : arrival_[v] + 1});
     return layer;

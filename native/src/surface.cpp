@@ -41,9 +41,7 @@ std::string name(const char* kind, int64_t id) { return std::string(kind) + " " 
 
 bool outside(int id, int count) { return static_cast<unsigned>(id) >= static_cast<unsigned>(count); }
 
-std::string range_text(int count) {
-    return count == 0 ? "there are none" : "they run from 0 to " + std::to_string(count - 1);
-}
+std::string range_text(int count) { return count == 0 ? "there are none" : "they run from 0 to " + std::to_string(count - 1); }
 
 void require_size(size_t size, const char* what) {
     if (size > static_cast<size_t>(std::numeric_limits<int>::max()) / 3) {
@@ -90,10 +88,10 @@ std::vector<int> copy_offsets(std::span<const int32_t> offsets, size_t corner_co
         const int64_t n = int64_t{offsets[face + 1]} - offsets[face];
         if (n >= 3) continue;
         complaints.add([&] {
-            if (n >= 0) return name("face", static_cast<int64_t>(face)) + " has " + std::to_string(n) + " vertices, fewer than three";
+            const std::string where = name("face", static_cast<int64_t>(face));
+            if (n >= 0) return where + " has " + std::to_string(n) + " vertices, fewer than three";
             return "face_offsets must start with 0, rise, and end with the size of face_vertices; it falls from " +
-                   std::to_string(offsets[face]) + " to " + std::to_string(offsets[face + 1]) + " at " +
-                   name("face", static_cast<int64_t>(face));
+                   std::to_string(offsets[face]) + " to " + std::to_string(offsets[face + 1]) + " at " + where;
         });
     }
     complaints.raise();
@@ -140,9 +138,8 @@ void check_faces(std::span<const int> face_offsets, std::span<const int> face_ve
         const auto polygon = face_vertices.subspan(face_offsets[face], face_offsets[face + 1] - face_offsets[face]);
         const auto bad = std::ranges::find_if(polygon, [&](int v) { return outside(v, vertex_count); });
         if (bad != polygon.end()) {
-            complaints.add([&] {
-                return name("face", face) + " uses vertex " + std::to_string(*bad) + "; " + range_text(vertex_count);
-            });
+            complaints.add(
+                [&] { return name("face", face) + " uses vertex " + std::to_string(*bad) + "; " + range_text(vertex_count); });
         } else if (const int v = repeated_vertex(polygon, scratch); v >= 0) {
             complaints.add([&] { return name("face", face) + " repeats vertex " + std::to_string(v); });
         }

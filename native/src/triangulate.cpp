@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <tuple>
 
 namespace mrc {
 namespace {
@@ -193,7 +194,7 @@ bool PolygonSides::holds(std::span<const int> polygon, int vertex) const {
 bool PolygonSides::pair_diagonals(std::span<const int> polygon) {
     // Sorted, the two half-edges of a diagonal are neighbours. A diagonal that occurs more often fails here as well: its first two
     // run in the same direction, as they are sorted by that next.
-    std::ranges::sort(diagonals_);
+    std::ranges::sort(diagonals_, {}, [](const Diagonal& d) { return std::tuple(d.low, d.high, d.rising); });
     for (size_t i = 0; i < diagonals_.size(); i += 2) {
         const Diagonal& first = diagonals_[i];
         const Diagonal second = i + 1 < diagonals_.size() ? diagonals_[i + 1] : Diagonal{};

@@ -39,8 +39,9 @@ class Triangulator {
 /// Tells the sides of a polygon from the diagonals of its triangulation, pairs the diagonals, and finds what is wrong. One object
 /// serves many polygons and reuses its memory.
 ///
-/// A triangulation is n - 2 triangles that hold each of the n sides once, in the polygon's direction, and every other edge twice, in
-/// opposite directions. That suffices: they form a surface with the polygon as its one border and Euler characteristic 1, a disk.
+/// A triangulation is n - 2 triangles that hold each of the n sides once, in the polygon's direction, and every other edge twice,
+/// in opposite directions. That suffices: they form a surface with the polygon as its one border and Euler characteristic 1, which
+/// is a disk.
 class PolygonSides {
   public:
     explicit PolygonSides(int vertex_count) : vertex_count_(vertex_count) {}
@@ -65,7 +66,6 @@ class PolygonSides {
         int low, high;  ///< corners
         bool rising;
         int halfedge;
-        auto operator<=>(const Diagonal&) const = default;
     };
     int vertex_count_;
     std::vector<int> corner_;  ///< of the vertices of the polygon read last; of others, anything
