@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Minimum Ratio Contours: moves a rough edge loop to the part boundary nearby."""
+
+bl_info = {
+    "name": "Minimum Ratio Contours",
+    "author": "Minimum Ratio Contours developers",
+    "version": (0, 1, 0),
+    "blender": (3, 4, 0),
+    "location": "Edit Mode > Sidebar > Contours, and Edge > Optimize Contour",
+    "description": "Moves rough edge loops to the part boundaries nearby",
+    "category": "Mesh",
+}
+
+
+def _modules():
+    # Imported here, not above: the modules that do without bpy can then be imported outside Blender.
+    from . import api, operators, panels
+
+    return api, operators, panels
+
+
+def register():
+    for module in _modules():
+        module.register()
+
+
+def unregister():
+    for module in reversed(_modules()):
+        module.unregister()

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From arrays of selected edges or faces to closed loops, open chains and what branches. Needs no Blender."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class SelectedContours:
+    """The connected pieces of a selection; each list is in the order of the pieces' lowest vertices."""
+
+    loops: list = field(default_factory=list)  # vertices in order, the first not repeated
+    chains: list = field(default_factory=list)  # vertices from one end to the other
+    branching: list = field(default_factory=list)  # (n, 2) edges of a piece in which a vertex has three or more
+
+
+def sort_edges(edges):
+    """Sorts (n, 2) edges into closed loops, open chains and branching pieces."""
+    edges = np.asarray(edges).reshape(-1, 2)
+    vertices, ends = np.unique(edges, return_inverse=True)
+    ends = ends.reshape(-1, 2)
+    degrees = np.bincount(ends.ravel(), minlength=len(vertices))
+    labels = _component_labels(ends, len(vertices))
+    branching = np.unique(labels[degrees > 2])
+    open_ended = np.setdiff1d(labels[degrees == 1], branching)
+    closed = np.setdiff1d(labels, np.union1d(branching, open_ended))
+
+    neighbours = _neighbour_pairs(ends, degrees)
+    lowest_ends = [np.flatnonzero((labels == label) & (degrees == 1))[0] for label in open_ended]
+    edge_labels = labels[ends[:, 0]]
+    return SelectedContours(
+        loops=[vertices[_walk(neighbours, start)] for start in closed],
+        chains=[vertices[_walk(neighbours, start)] for start in lowest_ends],
+        branching=[edges[edge_labels == label] for label in branching],
+    )
+
+
+def branch_vertices(edges):
+    """The vertices at which three or more of the (n, 2) edges meet."""
+    vertices, counts = np.unique(edges, return_counts=True)
+    return vertices[counts > 2]
+
+
+def contour_edges(vertices, closed=True):
+    """The (n, 2) vertex pairs along a contour."""
+    vertices = np.asarray(vertices)
+    pairs = np.column_stack([vertices, np.roll(vertices, -1)])
+    return pairs if closed else pairs[:-1]
+
+
+def region_border(face_offsets, corner_edges, selected, hidden, edge_count):
+    """The edges between a selected face and one that is visible and not selected.
+
+    Where the selection reaches the mesh's own border, or hidden faces, it has no border that could move.
+    """
+    corner_faces = np.repeat(np.arange(len(selected)), np.diff(face_offsets))
+    inside = np.zeros(edge_count, dtype=bool)
+    inside[corner_edges[selected[corner_faces]]] = True
+    outside = np.zeros(edge_count, dtype=bool)
+    outside[corner_edges[~(selected | hidden)[corner_faces]]] = True
+    return np.flatnonzero(inside & outside)
+
+
+def _component_labels(ends, count):
+    """The lowest vertex of each vertex's connected piece: the lower root takes the other, until nothing moves."""
+    labels = np.arange(count)
+    while True:
+        roots = labels[ends]
+        if np.array_equal(roots[:, 0], roots[:, 1]):
+            return labels
+        np.minimum.at(labels, roots.max(axis=1), roots.min(axis=1))
+        while not np.array_equal(labels, labels[labels]):
+            labels = labels[labels]
+
+
+def _neighbour_pairs(ends, degrees):
+    """The two neighbours of each vertex, lower first; -1 where there is no second. A third and more are left out."""
+    tails, heads = ends.ravel(), ends[:, ::-1].ravel()
+    heads = np.append(heads[np.lexsort((heads, tails))], -1)
+    first = np.cumsum(degrees) - degrees
+    return np.column_stack([heads[first], np.where(degrees > 1, heads[first + 1], -1)])
+
+
+def _walk(neighbours, start):
+    """The vertices from start on, to the end of the chain or once round the loop."""
+    path = [start]
+    previous, current = -1, start
+    while True:
+        one, other = neighbours[current]
+        following = one if one != previous else other
+        if following in (-1, start):
+            return np.array(path)
+        path.append(following)
+        previous, current = current, following

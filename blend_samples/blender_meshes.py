@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Between Blender's meshes and plain arrays: polygons, and the edge attributes that hold a sample's loops."""
+
+import bpy
+import numpy as np
+from rough_loops import Polygons
+
+ROUGH = "rough_loop."  # a boolean edge attribute for each rough loop: this, then the loop's name
+TRUE = "true_loop."  # likewise, where a loop ought to land by construction
+
+
+def read(collection, name, width, dtype):
+    flat = np.empty(len(collection) * width, dtype)
+    collection.foreach_get(name, flat)
+    return flat if width == 1 else flat.reshape(-1, width)
+
+
+def polygons(mesh):
+    """The mesh's faces as arrays."""
+    starts = read(mesh.polygons, "loop_start", 1, np.int32)
+    corners = read(mesh.loops, "vertex_index", 1, np.int32)
+    return Polygons(read(mesh.vertices, "co", 3, np.float64), np.append(starts, len(corners)), corners)
+
+
+def new_object(name, mesh_arrays):
+    """A new mesh object from arrays of triangles, in the scene."""
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(mesh_arrays.positions.tolist(), [], mesh_arrays.vertices.reshape(-1, 3).tolist())
+    ob = bpy.data.objects.new(name, mesh)
+    bpy.context.scene.collection.objects.link(ob)
+    return ob
+
+
+def edge_pairs(mesh):
+    return np.sort(read(mesh.edges, "vertices", 2, np.int32), axis=1)
+
+
+def edge_mask(mesh, loop):
+    """True for the mesh's edges that lie on a closed loop of vertices."""
+    loop = np.asarray(loop, np.int64)
+    sides = np.sort(np.stack([loop, np.roll(loop, -1)], axis=1), axis=1)
+    pairs, count = edge_pairs(mesh).astype(np.int64), len(mesh.vertices)
+    mask = np.isin(pairs @ (count, 1), sides @ (count, 1))
+    if mask.sum() != len(loop):
+        raise ValueError(f"{mesh.name}: {len(loop) - mask.sum()} sides of the loop are no edges of the mesh.")
+    return mask
+
+
+def store_loop(mesh, attribute, loop):
+    """Keeps a loop in the mesh as a boolean edge attribute."""
+    mesh.attributes.new(attribute, "BOOLEAN", "EDGE").data.foreach_set("value", edge_mask(mesh, loop))
+
+
+def stored_loops(mesh, prefix):
+    """Name -> vertices in order, of the loops stored under a prefix."""
+    names = [a.name for a in mesh.attributes if a.name.startswith(prefix)]
+    return {name[len(prefix) :]: ordered_loop(mesh, stored_mask(mesh, name)) for name in names}
+
+
+def stored_mask(mesh, attribute):
+    return read(mesh.attributes[attribute].data, "value", 1, bool)
+
+
+def ordered_loop(mesh, mask):
+    """The vertices of the one closed loop that the marked edges form."""
+    neighbours = {}
+    for a, b in edge_pairs(mesh)[mask].tolist():
+        neighbours.setdefault(a, []).append(b)
+        neighbours.setdefault(b, []).append(a)
+    start = min(neighbours)
+    loop, last, here = [start], start, neighbours[start][0]
+    while here != start:
+        loop.append(here)
+        last, here = here, next(v for v in neighbours[here] if v != last)
+    return loop
+
+
+def select_edges(mesh, mask):
+    """Selects just the marked edges, as Edit Mode will show them."""
+    vertices = np.zeros(len(mesh.vertices), bool)
+    vertices[edge_pairs(mesh)[mask]] = True
+    mesh.polygons.foreach_set("select", np.zeros(len(mesh.polygons), bool))
+    mesh.edges.foreach_set("select", np.ascontiguousarray(mask))
+    mesh.vertices.foreach_set("select", vertices)

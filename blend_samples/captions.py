@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A strip of words as pixels, drawn with Blender's own font."""
+
+import bpy
+from images import link, material, render, workbench
+
+LINE = 30  # pixels
+
+
+def strip(width, words):
+    """Words are (line from the top, pixels from the left, text, colour); gives rows of pixels, from the bottom."""
+    height = LINE * (1 + max(line for line, *_ in words)) + 12
+    scene = bpy.data.scenes.new("words")
+    workbench(scene, width, height)
+    scene.display.shading.light = "FLAT"
+    camera = link(scene, "camera", bpy.data.cameras.new("camera"))
+    camera.data.type, camera.data.ortho_scale = "ORTHO", width
+    camera.location = (width / 2, height / 2, 10)
+    scene.camera = camera
+    for line, left, text, colour in words:
+        data = bpy.data.curves.new("words", "FONT")
+        data.body, data.size = text, 0.95 * LINE
+        data.materials.append(material("words", colour))
+        link(scene, "words", data).location = (left, height - LINE * (line + 0.95), 0)
+    return render(scene)

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Renders of scenes as arrays of pixels, by Workbench, which needs no display, no light and no time."""
+
+import tempfile
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+PAPER = (0.94, 0.94, 0.93)
+
+
+def link(scene, name, data):
+    ob = bpy.data.objects.new(name, data)
+    scene.collection.objects.link(ob)
+    return ob
+
+
+def material(name, colour):
+    made = bpy.data.materials.new(name)
+    made.diffuse_color = (*colour, 1.0)
+    made.roughness = 0.6
+    return made
+
+
+def workbench(scene, width, height):
+    scene.render.engine = "BLENDER_WORKBENCH"
+    scene.display.render_aa = "8"
+    scene.display.shading.light, scene.display.shading.color_type = "STUDIO", "MATERIAL"
+    scene.view_settings.view_transform = "Standard"
+    scene.render.film_transparent = True
+    scene.render.resolution_x, scene.render.resolution_y = width, height
+    scene.render.image_settings.file_format = "PNG"
+
+
+def render(scene):
+    """Rows of pixels from the bottom, on paper."""
+    width, height = scene.render.resolution_x, scene.render.resolution_y
+    with tempfile.TemporaryDirectory() as folder:
+        scene.render.filepath = str(Path(folder) / "half.png")
+        bpy.ops.render.render(write_still=True, scene=scene.name)
+        image = bpy.data.images.load(scene.render.filepath)
+        pixels = np.empty(4 * width * height, np.float32)
+        image.pixels.foreach_get(pixels)
+    pixels = pixels.reshape(height, width, 4)
+    return pixels[:, :, :3] * pixels[:, :, 3:] + (1.0 - pixels[:, :, 3:]) * np.float32(PAPER)
+
+
+def save(pixels, path):
+    height, width = pixels.shape[:2]
+    image = bpy.data.images.new(path.stem, width, height)
+    image.pixels.foreach_set(np.concatenate([pixels, np.ones_like(pixels[:, :, :1])], axis=2).ravel())
+    image.filepath_raw, image.file_format = str(path), "PNG"
+    image.save()

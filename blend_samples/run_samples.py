@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Optimizes the rough loops of all samples through the add-on, and writes .blend files, pictures and a table:
+
+    blender -b --factory-startup --python-exit-code 1 --python blend_samples/run_samples.py -- --output build/samples
+
+BLENDER_USER_SCRIPTS names the folder whose `addons` holds the add-on with its native module. Every contour goes the way
+of a modeler, through the operator in Edit Mode with output Seam; the numbers are those of the add-on's `api` for the
+same loop. It fails where a contour does: an error, a seam that is not the contour found, or a ratio above the given
+loop's.
+"""
+
+import argparse
+import hashlib
+import json
+import sys
+import traceback
+from dataclasses import dataclass
+from pathlib import Path
+
+import addon_utils
+import bpy
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+
+import blender_meshes  # noqa: E402
+import pictures  # noqa: E402
+import real_meshes  # noqa: E402
+import report  # noqa: E402
+from rough_loops import rough_loop  # noqa: E402
+
+FOUND = "found_loop."  # a boolean edge attribute for each contour found
+DRAWN_BY = [HERE / name for name in ("pictures.py", "views.py", "captions.py", "images.py")]
+
+
+@dataclass
+class Sample:
+    """A mesh object with its rough loops: name -> vertices in order, and name -> width of the band."""
+
+    name: str
+    ob: bpy.types.Object
+    loops: dict
+    widths: dict
+    truths: dict
+    up: tuple
+
+
+def made_sample(path):
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    ob = bpy.context.view_layer.objects.active
+    loops = blender_meshes.stored_loops(ob.data, blender_meshes.ROUGH)
+    truths = blender_meshes.stored_loops(ob.data, blender_meshes.TRUE)
+    return Sample(path.stem, ob, loops, {name: ob["width." + name] for name in loops}, truths, (0, 0, 1))
+
+
+def real_sample(name, archive):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    ob = blender_meshes.new_object(name, real_meshes.read_off(archive, name))
+    bpy.context.view_layer.objects.active = ob
+    mesh = blender_meshes.polygons(ob.data)
+    cuts = real_meshes.cuts(name, mesh)
+    loops = {cut.name: rough_loop(mesh, cut) for cut in cuts}
+    for cut in cuts:
+        blender_meshes.store_loop(ob.data, blender_meshes.ROUGH + cut.name, loops[cut.name])
+    return Sample(name, ob, loops, {cut.name: cut.width for cut in cuts}, {}, real_meshes.up(name))
+
+
+def samples(only, output):
+    """One after the other, as each replaces the file that is open; with the add-on enabled."""
+    for path in sorted(HERE.glob("*.blend")):
+        if only in (None, path.stem):
+            yield made_sample(path)
+    with real_meshes.open_archive(output / "libcgal-demo") as archive:
+        for name in real_meshes.CUTS:
+            if only in (None, name):
+                yield real_sample(name, archive)
+
+
+def enable_addon():
+    module = addon_utils.enable("minimum_ratio_contours", default_set=True)
+    if module is None:
+        raise SystemExit("The add-on minimum_ratio_contours is not in the folder that BLENDER_USER_SCRIPTS names.")
+    from minimum_ratio_contours import api, native
+
+    return api, native.module()
+
+
+def mark_seam(sample, name, found):
+    """Runs the operator on the selected loop and checks that the seams it adds are the contour found."""
+    mesh = sample.ob.data
+    blender_meshes.select_edges(mesh, blender_meshes.edge_mask(mesh, sample.loops[name]))
+    wanted = blender_meshes.read(mesh.edges, "use_seam", 1, bool) | found
+    bpy.context.scene.tool_settings.mesh_select_mode = (False, True, False)
+    bpy.ops.object.mode_set(mode="EDIT")
+    done = bpy.ops.mesh.optimize_contour(output="SEAM", keep_old=True, width=sample.widths[name])
+    bpy.ops.object.mode_set(mode="OBJECT")
+    if done != {"FINISHED"} or not np.array_equal(blender_meshes.read(mesh.edges, "use_seam", 1, bool), wanted):
+        raise RuntimeError(f"the operator answered {done} and did not mark just the contour found")
+
+
+def run_contour(sample, name, output, api, mrc):
+    """One contour: result, seam, picture. Returns its line of the table."""
+    mesh, loop, width = sample.ob.data, sample.loops[name], sample.widths[name]
+    result = api.optimize_contour(sample.ob, loop, width=width)
+    if result.ratio > result.initial_ratio:
+        raise RuntimeError(f"the ratio rose from {result.initial_ratio} to {result.ratio}")
+    band = mrc.band(api.surface_of(sample.ob), loop, options=mrc.Options(width=width))
+    found = blender_meshes.edge_mask(mesh, result.vertices)
+    mark_seam(sample, name, found)
+    blender_meshes.store_loop(mesh, FOUND + name, result.vertices)
+    title = f"{sample.name}: {name.replace('_', ' ')}"
+    before = f"given loop: ratio {result.initial_ratio:.4g}"
+    after = f"contour found: ratio {result.ratio:.4g}, {result.status}"
+    shown = (loop, list(result.vertices), sample.truths.get(name), band)
+    comparison = pictures.Comparison(*shown, title, before, after)
+    draw_if_changed(output / "pictures" / f"{sample.name}.{name}.png", sample, comparison)
+    return report.row(sample.name, name, len(mesh.polygons), result, off_truth(sample, name, result.vertices))
+
+
+def off_truth(sample, name, found):
+    """Mean distance of the vertices found to the loop known by construction, in mean edge lengths."""
+    if name not in sample.truths:
+        return None
+    positions = blender_meshes.read(sample.ob.data.vertices, "co", 3, np.float64)
+    sides = np.diff(positions[blender_meshes.edge_pairs(sample.ob.data)], axis=1)
+    apart = positions[found][:, None] - positions[sample.truths[name]][None]
+    return np.linalg.norm(apart, axis=2).min(axis=1).mean() / np.linalg.norm(sides, axis=2).mean()
+
+
+def draw_if_changed(path, sample, comparison):
+    """Draws a picture unless it is there and was made of the same mesh, contours and words by the same code."""
+    mesh = blender_meshes.polygons(sample.ob.data)
+    digest = hashlib.sha256()
+    loops = (comparison.given, comparison.found, comparison.truth or [])
+    for array in (mesh.positions, mesh.vertices, *loops, comparison.band):
+        digest.update(np.ascontiguousarray(array).tobytes())
+    words = [comparison.title, comparison.before, comparison.after, *(file.read_text() for file in DRAWN_BY)]
+    digest.update(json.dumps(words).encode())
+    stamp = path.with_suffix(".sha256")
+    if path.exists() and stamp.exists() and stamp.read_text() == digest.hexdigest():
+        return
+    path.parent.mkdir(parents=True, exist_ok=True)
+    pictures.draw(path, sample.ob, sample.up, comparison)
+    stamp.write_text(digest.hexdigest())
+
+
+def save(sample, output):
+    """The result as a .blend: rough and found loops as edge attributes, the found ones as seams and selected."""
+    mesh = sample.ob.data
+    blender_meshes.select_edges(mesh, blender_meshes.read(mesh.edges, "use_seam", 1, bool))
+    bpy.context.preferences.filepaths.save_version = 0
+    bpy.ops.wm.save_as_mainfile(filepath=str(output / f"{sample.name}.result.blend"), compress=True, copy=True)
+
+
+def run(output, only):
+    """All contours; gives the lines of the table and the failures."""
+    api, mrc = enable_addon()
+    rows, failures = [], []
+    for sample in samples(only, output):
+        enable_addon()
+        for name in sample.loops:
+            try:
+                rows.append(run_contour(sample, name, output, api, mrc))
+            except Exception as error:  # the others shall still be run; reported below, and the run fails
+                traceback.print_exc()
+                failures.append(f"{sample.name}, {name}: {error}")
+        save(sample, output)
+    return rows, failures
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="run_samples.py")
+    parser.add_argument("--output", type=Path, required=True, help="folder for .blend files, pictures and the table")
+    parser.add_argument("--only", metavar="NAME", help="just this sample")
+    arguments = parser.parse_args(sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else [])
+    output = arguments.output.resolve()
+    output.mkdir(parents=True, exist_ok=True)
+    rows, failures = run(output, arguments.only)
+    report.write(output, rows)
+    print("\n".join(report.lines(rows)))
+    print(f"{len(rows)} contours done, {len(failures)} failed.", *failures, sep="\n")
+    if failures or not rows:
+        raise SystemExit(1)
+
+
+main()

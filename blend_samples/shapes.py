@@ -1,0 +1,242 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The made samples' shapes, from Blender's own primitives, modifiers and metaballs. Lengths in centimetres, z up.
+
+Every function gives a new mesh object; `hand`'s fingers and `groove_cylinder`'s groove are known by construction, so
+that one can say where a contour ought to land.
+"""
+
+from math import cos, radians, sin
+
+import bmesh
+import bpy
+import numpy as np
+from mathutils import Matrix, Vector
+
+# name: base on the hand's outline (x, z), angle of the axis to the vertical, length, radius at the base and at the tip
+FINGERS = {
+    "index": ((2.75, 8.6), 10.0, 7.0, 1.05, 0.75),
+    "middle": ((0.45, 9.1), 0.0, 7.9, 1.08, 0.77),
+    "ring": ((-1.8, 8.7), -10.0, 7.2, 1.02, 0.72),
+    "little": ((-3.75, 7.6), -21.0, 5.6, 0.88, 0.62),
+    "thumb": ((3.5, 3.2), 50.0, 5.8, 1.2, 0.85),
+}
+HAND_VOXEL = 0.22  # about the hand's edge length
+KNUCKLE = 1.25  # times the finger's radius: the ball of the palm that the finger leaves
+GROOVE = {"height": 0.0, "slope": 0.45, "depth": 0.22, "sigma": 0.22}
+CYLINDER = {"radius": 2.0, "height": 8.0, "around": 64, "along": 80}
+
+
+def finger_axis(name):
+    """Base point and unit direction of a finger."""
+    (x, z), angle, *_ = FINGERS[name]
+    return Vector((x, 0.0, z)), Vector((sin(radians(angle)), 0.0, cos(radians(angle))))
+
+
+def finger_point(name, part):
+    """The point on a finger's axis at a part of its length; at 0 its cone leaves the ball of its knuckle."""
+    base, axis = finger_axis(name)
+    length, radius = FINGERS[name][2:4]
+    leaves = radius * (KNUCKLE**2 - 1.0) ** 0.5
+    return base + axis * (leaves + part * (length - leaves))
+
+
+def hand():
+    """Palm: the hull of balls at the knuckles and the wrist. Fingers: cones that only shrink towards a round tip."""
+    bm = bmesh.new()
+    for name in FINGERS:
+        _add_finger(bm, name)
+    _add_palm(bm)
+    wrist = _scaled((0, 0, -1.6), (1.15, 0.72, 1))
+    bmesh.ops.create_cone(bm, cap_ends=True, segments=48, radius1=2.1, radius2=2.1, depth=5.0, matrix=wrist)
+    return _remeshed(_object("hand", bm), voxel=HAND_VOXEL, smoothing=6)
+
+
+def _add_finger(bm, name):
+    _, axis = finger_axis(name)
+    length, base_radius, tip_radius = FINGERS[name][2:]
+    base, tip = finger_axis(name)[0], finger_axis(name)[0] + axis * (length - tip_radius)
+    turn = axis.to_track_quat("Z", "Y").to_matrix().to_4x4()
+    middle = Matrix.Translation((base + tip) / 2) @ turn
+    depth = (tip - base).length
+    bmesh.ops.create_cone(
+        bm, cap_ends=True, segments=48, radius1=base_radius, radius2=tip_radius, depth=depth, matrix=middle
+    )
+    _add_ball(bm, tip, tip_radius)
+
+
+def _add_ball(bm, place, radius):
+    bmesh.ops.create_uvsphere(bm, u_segments=32, v_segments=24, radius=radius, matrix=Matrix.Translation(place))
+
+
+def _add_palm(bm):
+    hull = bmesh.new()
+    for name in FINGERS:
+        base, axis = finger_axis(name)
+        ball = KNUCKLE * FINGERS[name][3]
+        _add_ball(hull, base, ball)
+    for x in (-1.6, 1.5):
+        _add_ball(hull, (x, 0, 0.6), 1.3)
+    result = bmesh.ops.convex_hull(hull, input=hull.verts)
+    inside = [e for e in result["geom_interior"] if isinstance(e, bmesh.types.BMVert)]
+    bmesh.ops.delete(hull, geom=inside, context="VERTS")
+    mesh = bpy.data.meshes.new("palm")
+    hull.to_mesh(mesh)
+    hull.free()
+    bm.from_mesh(mesh)
+    bpy.data.meshes.remove(mesh)
+
+
+def torso():
+    """A trunk of metaballs with a strong waist, and horizontal grooves pressed in all over by a sine."""
+    balls = [((0, 0, 0.5), 5.2, (1.15, 0.8, 0.9)), ((0, 0, 9.5), 5.6, (1.25, 0.8, 0.95))]
+    balls += [((0, 0, 5), 3.2, (1.05, 0.8, 1.3))]
+    balls += [((side * 5.4, 0, 11.5), 2.6, (1, 1, 1)) for side in (-1, 1)] + [((0, 0, 15), 2.4, (1, 1, 1.2))]
+    ob = _remeshed(_from_metaballs("torso", balls), voxel=0.26, smoothing=6)
+    normals, positions = _vertex_normals(ob.data), _positions(ob.data)
+    depth = 0.10 * np.cos(2 * np.pi * positions[:, 2] / 1.3)
+    _set_positions(ob.data, positions + depth[:, None] * normals)
+    return ob
+
+
+def head():
+    """A head with nose, ears, eye hollows and a neck on shoulders, of metaballs."""
+    balls = [
+        ((0, 0, 0), 3.6, (0.85, 1.0, 1.05)),
+        ((0, -1.0, -1.9), 2.3, (0.95, 1.0, 0.9)),
+        ((0, -3.0, -0.5), 0.8, (0.8, 1.0, 1.2)),
+        ((0, 0.5, -4.2), 1.9, (1, 1, 1.6)),
+        ((0, 0.6, -7.2), 2.6, (2.0, 1.0, 0.75)),
+    ]
+    balls += [((side * 2.75, 0.2, -0.5), 1.0, (0.55, 0.8, 1.3)) for side in (-1, 1)]
+    hollows = [((side * 1.25, -3.5, 0.3), 0.9, (1.0, 0.9, 0.7)) for side in (-1, 1)]
+    return _remeshed(_from_metaballs("head", balls, hollows), voxel=0.16, smoothing=5)
+
+
+def suzanne():
+    bpy.ops.mesh.primitive_monkey_add(size=2)
+    ob = bpy.context.object
+    ob.name = ob.data.name = "suzanne"
+    return _apply(ob, "SUBSURF", levels=2)
+
+
+# radius and height of the bottle's profile
+BODY = ((3.0, 0.0), (3.4, 0.4), (3.4, 4.4), (3.0, 4.9), (3.0, 5.5), (3.4, 6.0), (3.4, 9.5), (3.1, 10.8), (1.9, 12.2))
+NECK = ((1.3, 13.0), (1.2, 13.6), (1.2, 16.0), (1.6, 16.2), (1.6, 17.0), (1.2, 17.2))
+
+
+def bottle():
+    """A lathed bottle of quads: n-gons for its ends, and bricks of six vertices where the label would be."""
+    profile = _even_profile(BODY + NECK, 0.22)
+    bm = bmesh.new()
+    angles = np.linspace(0, 2 * np.pi, 96, endpoint=False)
+    rings = [[bm.verts.new((r * cos(a), r * sin(a), z)) for a in angles] for r, z in profile]
+    for low, high in zip(rings, rings[1:]):
+        for i in range(96):
+            j = (i + 1) % 96
+            bm.faces.new((low[i], low[j], high[j], high[i]))
+    bm.faces.new(rings[0][::-1])
+    bm.faces.new(rings[-1])
+    _lay_bricks(bm, 96, [k for k, (_, z) in enumerate(profile[:-1]) if 6.4 < z < 9.2])
+    return _object("bottle", bm)
+
+
+def _even_profile(profile, step):
+    points = []
+    for (r0, z0), (r1, z1) in zip(profile, profile[1:]):
+        count = max(1, round(((r1 - r0) ** 2 + (z1 - z0) ** 2) ** 0.5 / step))
+        points += [(r0 + (r1 - r0) * i / count, z0 + (z1 - z0) * i / count) for i in range(count)]
+    return points + [profile[-1]]
+
+
+def _lay_bricks(bm, around, rows):
+    """Joins two neighbouring quads of each row, shifted by one from row to row."""
+    bm.faces.ensure_lookup_table()
+    pairs = [(row * around + i, row * around + (i + 1) % around) for row in rows for i in range(row % 2, around, 2)]
+    pairs = [(bm.faces[a], bm.faces[b]) for a, b in pairs]
+    edges = [next(e for e in a.edges if e in b.edges) for a, b in pairs]
+    bmesh.ops.dissolve_edges(bm, edges=edges, use_verts=False)
+
+
+def groove_cylinder():
+    """A regular quad cylinder with a slanted groove that follows no row of its vertices."""
+    around, along = CYLINDER["around"], CYLINDER["along"]
+    angle = np.tile(np.linspace(0, 2 * np.pi, around, endpoint=False), along + 1)
+    z = np.repeat(np.linspace(-0.5, 0.5, along + 1) * CYLINDER["height"], around)
+    x, y = np.cos(angle), np.sin(angle)
+    away = z - GROOVE["height"] - GROOVE["slope"] * CYLINDER["radius"] * x
+    radius = CYLINDER["radius"] - GROOVE["depth"] * np.exp(-0.5 * (away / GROOVE["sigma"]) ** 2)
+    faces = [
+        (k * around + i, k * around + (i + 1) % around, (k + 1) * around + (i + 1) % around, (k + 1) * around + i)
+        for k in range(along)
+        for i in range(around)
+    ]
+    mesh = bpy.data.meshes.new("groove_cylinder")
+    mesh.from_pydata(np.stack([radius * x, radius * y, z], axis=1).tolist(), [], faces)
+    return _linked(mesh)
+
+
+def _scaled(place, scale):
+    return Matrix.LocRotScale(Vector(place), None, Vector(scale))
+
+
+def _linked(mesh):
+    ob = bpy.data.objects.new(mesh.name, mesh)
+    bpy.context.scene.collection.objects.link(ob)
+    bpy.context.view_layer.objects.active = ob
+    return ob
+
+
+def _object(name, bm):
+    mesh = bpy.data.meshes.new(name)
+    bm.to_mesh(mesh)
+    bm.free()
+    return _linked(mesh)
+
+
+def _apply(ob, kind, **settings):
+    modifier = ob.modifiers.new(kind, kind)
+    for name, value in settings.items():
+        setattr(modifier, name, value)
+    with bpy.context.temp_override(object=ob):
+        bpy.ops.object.modifier_apply(modifier=modifier.name)
+    return ob
+
+
+def _remeshed(ob, voxel, smoothing):
+    """One closed surface of even quads; the smoothing rounds the steps of the voxels and the creases between parts."""
+    _apply(ob, "REMESH", mode="VOXEL", voxel_size=voxel)
+    return _apply(ob, "SMOOTH", factor=0.5, iterations=smoothing)
+
+
+def _from_metaballs(name, balls, hollows=()):
+    """Balls and the hollows that they press in: place, radius, and scale of each axis."""
+    data = bpy.data.metaballs.new(name)
+    data.resolution, data.threshold = 0.25, 0.1
+    for index, (place, radius, scale) in enumerate([*balls, *hollows]):
+        element = data.elements.new(type="ELLIPSOID")
+        element.co, element.radius, element.use_negative = place, radius, index >= len(balls)
+        element.size_x, element.size_y, element.size_z = scale
+    source = bpy.data.objects.new(name, data)
+    bpy.context.scene.collection.objects.link(source)
+    evaluated = source.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    mesh = bpy.data.meshes.new_from_object(evaluated)
+    bpy.data.objects.remove(source)
+    mesh.name = name
+    return _linked(mesh)
+
+
+def _positions(mesh):
+    flat = np.empty(3 * len(mesh.vertices))
+    mesh.vertices.foreach_get("co", flat)
+    return flat.reshape(-1, 3)
+
+
+def _vertex_normals(mesh):
+    flat = np.empty(3 * len(mesh.vertices))
+    mesh.vertices.foreach_get("normal", flat)
+    return flat.reshape(-1, 3)
+
+
+def _set_positions(mesh, positions):
+    mesh.vertices.foreach_set("co", positions.ravel())
+    mesh.update()

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where the camera of a picture stands: it looks from where most of the contours can be seen."""
+
+from dataclasses import dataclass
+
+import blender_meshes
+import numpy as np
+from mathutils import Matrix, Vector
+from mathutils.bvhtree import BVHTree
+
+DIRECTIONS = 96
+SAMPLES = 60  # points of each contour that are tried for visibility
+
+
+@dataclass
+class View:
+    """An orthographic camera: its matrix, the width of its frame, and how deep it must see."""
+
+    matrix: Matrix
+    width: float
+    depth: float
+
+
+def best_view(mesh, curves, band_points, up):
+    """Looks along the best direction at a frame that holds the band and some of what is around it."""
+    mesh.calc_loop_triangles()
+    positions = blender_meshes.read(mesh.vertices, "co", 3, np.float64)
+    direction = _best_direction(mesh, positions, curves, np.asarray(up, float))
+    right, top = _frame(direction, up)
+    flat = np.stack([right, top], axis=1)
+    low, high = (band_points @ flat).min(axis=0), (band_points @ flat).max(axis=0)
+    whole = np.ptp(positions @ flat, axis=0).max()
+    width = min(max(1.55 * (high - low).max(), 0.32 * whole), 1.1 * whole)
+    near, far = (positions @ direction).max(), (positions @ direction).min()
+    matrix = Matrix(np.stack([right, top, direction], axis=1).tolist()).to_4x4()
+    matrix.translation = Vector((low + high) / 2 @ flat.T + (near + width) * direction)
+    return View(matrix, width, near - far + 2 * width)
+
+
+def _frame(view, up):
+    right = np.cross(up, view)
+    right /= np.linalg.norm(right)
+    return right, np.cross(view, right)
+
+
+def _best_direction(mesh, positions, curves, up):
+    triangles = blender_meshes.read(mesh.loop_triangles, "vertices", 3, np.int32)
+    tree = BVHTree.FromPolygons(positions.tolist(), triangles.tolist())
+    size = np.ptp(positions, axis=0).max()
+    pieces = [_pieces(curve) for curve in curves]
+    axes = [_axis(curve) for curve in curves]
+    views = _directions(up, axes)
+    return max(views, key=lambda view: sum(_seen(tree, view, size, *piece) for piece in pieces))
+
+
+def _pieces(curve):
+    """Middles and sides of a closed curve, and the outward normals that its points have."""
+    points, normals = curve
+    side = np.roll(points, -1, axis=0) - points
+    keep = np.linspace(0, len(points), min(SAMPLES, len(points)), endpoint=False).astype(int)
+    return (points + side / 2)[keep], side[keep] / np.linalg.norm(side, axis=1).sum(), normals[keep]
+
+
+def _axis(curve):
+    """The unit normal of a closed curve: its area vector."""
+    points = curve[0] - curve[0].mean(axis=0)
+    area = np.cross(points, np.roll(points, -1, axis=0)).sum(axis=0)
+    return area / max(np.linalg.norm(area), 1e-30)
+
+
+def _directions(up, axes):
+    """Directions spread evenly, none from far above or below and none along a contour's axis."""
+    k = np.arange(DIRECTIONS) + 0.5
+    height, turn = 1 - 2 * k / DIRECTIONS, np.pi * (1 + 5**0.5) * k
+    flat = np.sqrt(1 - height**2)
+    views = np.stack([flat * np.cos(turn), flat * np.sin(turn), height], axis=1)
+    level = views[(views @ up > -0.3) & (views @ up < 0.5)]
+    sideways = [view for view in level if all(abs(view @ axis) < 0.75 for axis in axes)]
+    return sideways or list(level)
+
+
+def _seen(tree, view, size, middles, sides, normals):
+    """The visible part of the projected length."""
+    length = np.linalg.norm(np.cross(sides, view), axis=1)
+    starts = middles + 2e-3 * size * normals
+    free = [tree.ray_cast(Vector(start), Vector(view))[0] is None for start in starts]
+    return length[free].sum()

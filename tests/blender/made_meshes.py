@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meshes and rough loops that the tests make, and what they read back."""
+
+import bmesh
+import bpy
+import numpy as np
+
+SEGMENTS, RINGS, GROOVE = 32, 21, 12
+
+
+def ring(row):
+    """The vertices of a ring of the cylinder."""
+    return [row * SEGMENTS + column for column in range(SEGMENTS)]
+
+
+def rough_loop(row, steps=2):
+    """A closed loop along the cylinder's edges that climbs `steps` rings from this one and comes down again."""
+    rows = [row + round(steps * (1 - np.cos(2 * np.pi * column / SEGMENTS)) / 2) for column in range(SEGMENTS)]
+    loop = []
+    for column in range(SEGMENTS):
+        arrives, leaves = rows[column - 1], rows[column]
+        step = 1 if leaves >= arrives else -1
+        loop += [between * SEGMENTS + column for between in range(arrives, leaves + step, step)]
+    return loop
+
+
+def pairs(loop, closed=True):
+    """The edges along a list of vertices."""
+    return list(zip(loop, loop[1:] + loop[:1] if closed else loop[1:]))
+
+
+def grooved_cylinder(name="Cylinder", depth=0.3):
+    """An open cylinder of quads with a groove round ring GROOVE."""
+    rows = np.arange(RINGS)
+    radii = 1 - depth * np.exp(-((rows - GROOVE) ** 2) / 2)
+    angles = 2 * np.pi * np.arange(SEGMENTS) / SEGMENTS
+    round_about = [(np.cos(angle), np.sin(angle)) for angle in angles]
+    positions = [(radius * x, radius * y, 0.2 * row) for row, radius in zip(rows, radii) for x, y in round_about]
+    faces = [
+        (upper - SEGMENTS, following - SEGMENTS, following, upper)
+        for row in range(1, RINGS)
+        for upper, following in pairs(ring(row))
+    ]
+    return mesh_object(name, positions, faces=faces)
+
+
+def mesh_object(name, positions, edges=(), faces=()):
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(positions, list(edges), list(faces))
+    obj = bpy.data.objects.new(name, mesh)
+    bpy.context.scene.collection.objects.link(obj)
+    bpy.context.view_layer.objects.active = obj
+    return obj
+
+
+def edit(*objects, mode="EDGE"):
+    """Edit Mode for these objects, with nothing selected."""
+    for obj in bpy.context.view_layer.objects:
+        obj.select_set(obj in objects)
+    bpy.context.view_layer.objects.active = objects[0]
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_mode(type="VERT" if mode == "VERTEX" else mode)
+    bpy.ops.mesh.select_all(action="DESELECT")
+
+
+def select(obj, edges):
+    """Adds edges, given as vertex pairs, to the selection."""
+    bm = bmesh.from_edit_mesh(obj.data)
+    for edge in find_edges(bm, edges):
+        edge.select_set(True)
+    bm.select_flush_mode()
+    bmesh.update_edit_mesh(obj.data)
+
+
+def select_faces_below(obj, loop):
+    """Selects the faces between the cylinder's ring 2 and a loop, seen from below."""
+    wall = {frozenset(pair) for pair in pairs(loop) + pairs(ring(2))}
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.faces.ensure_lookup_table()
+    pending = [bm.faces[2 * SEGMENTS]]
+    while pending:
+        face = pending.pop()
+        face.select_set(True)
+        for edge in face.edges:
+            if frozenset(vertex.index for vertex in edge.verts) not in wall:
+                pending += [other for other in edge.link_faces if not other.select]
+    bmesh.update_edit_mesh(obj.data)
+
+
+def find_edges(bm, edges):
+    bm.verts.ensure_lookup_table()
+    return [bm.edges.get((bm.verts[a], bm.verts[b])) for a, b in edges]
+
+
+def set_flag(obj, edges, flag):
+    bm = bmesh.from_edit_mesh(obj.data)
+    for edge in find_edges(bm, edges):
+        if flag == "seam":
+            edge.seam = True
+        else:
+            edge.smooth = False
+    bmesh.update_edit_mesh(obj.data)
+
+
+def flagged(obj, flag):
+    """The edges of an object in Edit Mode with a flag ("select", "seam", "sharp"), as a set of vertex pairs."""
+    attribute, value = {"select": ("select", True), "seam": ("seam", True), "sharp": ("smooth", False)}[flag]
+    edges = [edge for edge in bmesh.from_edit_mesh(obj.data).edges if getattr(edge, attribute) == value]
+    return {frozenset(vertex.index for vertex in edge.verts) for edge in edges}
+
+
+def edge_set(loop):
+    return {frozenset(pair) for pair in pairs(loop)}
+
+
+def everything(obj):
+    """All that a mesh in Edit Mode holds, as plain data that can be compared."""
+    bm = bmesh.from_edit_mesh(obj.data)
+    return {
+        "vertices": [(tuple(vertex.co), vertex.select, vertex.hide) for vertex in bm.verts],
+        "edges": [(*ids(edge), edge.select, edge.hide, edge.seam, edge.smooth) for edge in bm.edges],
+        "faces": [(*ids(face), face.select, face.hide, face.smooth, face.material_index) for face in bm.faces],
+        "layers": layers(bm),
+    }
+
+
+LAYER_TYPES = ("float", "float_color", "float_vector", "int", "bevel_weight", "crease", "deform", "shape", "uv")
+
+
+def ids(element):
+    return [vertex.index for vertex in element.verts]
+
+
+def layers(bm):
+    """The contents of every layer, by element kind, layer kind and name; UV and colour as tuples."""
+    found = {}
+    corners = [corner for face in bm.faces for corner in face.loops]
+    for kind, layer_sets, elements in (
+        ("vertex", bm.verts.layers, bm.verts),
+        ("edge", bm.edges.layers, bm.edges),
+        ("face", bm.faces.layers, bm.faces),
+        ("corner", bm.loops.layers, corners),
+    ):
+        for type_name in LAYER_TYPES:
+            for layer in getattr(layer_sets, type_name, {}).values():
+                found[kind, type_name, layer.name] = [_plain(element[layer]) for element in elements]
+    return found
+
+
+def _plain(value):
+    if hasattr(value, "uv"):
+        return tuple(value.uv)
+    if hasattr(value, "items"):
+        return tuple(value.items())
+    return tuple(value) if hasattr(value, "__len__") else value

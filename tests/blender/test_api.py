@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The scripts' way in: no selection, native results, the mesh as it was."""
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+from made_meshes import GROOVE, SEGMENTS, edge_set, edit, everything, grooved_cylinder, ring, rough_loop
+from minimum_ratio_contours import api, mesh_access
+
+
+def test_object_mode():
+    result = api.optimize_contour(grooved_cylinder(), rough_loop(GROOVE - 3), width=5)
+    assert result.status == "improved"
+    assert edge_set(np.asarray(result.vertices).tolist()) == edge_set(ring(GROOVE))
+
+
+def test_edit_mode_sees_what_was_edited_and_changes_nothing():
+    obj = grooved_cylinder(depth=0)
+    edit(obj)
+    shape = grooved_cylinder("Shape")
+    bpy.context.view_layer.objects.active = obj
+    for vertex, source in zip(bmesh.from_edit_mesh(obj.data).verts, shape.data.vertices):
+        vertex.co = source.co
+    before = everything(obj)
+    result = api.optimize_contour(obj, rough_loop(GROOVE - 3))
+    assert edge_set(np.asarray(result.vertices).tolist()) == edge_set(ring(GROOVE))
+    assert everything(obj) == before
+
+
+def test_bad_input_is_named():
+    obj = grooved_cylinder()
+    with pytest.raises(ValueError, match=str(ring(0)[0])):
+        api.optimize_contour(obj, [ring(0)[0], ring(4)[0], ring(8)[0]])
+    with pytest.raises(TypeError, match="widht"):
+        api.optimize_contour(obj, rough_loop(5), widht=3)
+
+
+def test_arrays():
+    obj = grooved_cylinder()
+    obj.data.polygons[7].hide = True
+    arrays = mesh_access.read_arrays(obj)
+    faces = len(obj.data.polygons)
+    assert arrays.positions.dtype == np.float64
+    assert arrays.positions.shape == (len(obj.data.vertices), 3)
+    assert arrays.face_offsets.tolist() == list(range(0, 4 * faces + 1, 4))
+    assert arrays.face_vertices[:4].tolist() == [0, 1, SEGMENTS + 1, SEGMENTS]
+    assert arrays.triangles.shape == (2 * faces, 3)
+    assert arrays.hidden_faces.tolist() == [7]
+    for array in (arrays.face_offsets, arrays.face_vertices, arrays.triangles, arrays.hidden_faces):
+        assert array.dtype == np.int32
+        assert array.flags.c_contiguous

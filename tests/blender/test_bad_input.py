@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where nothing can be done, the operator says why, cancels, and leaves mesh and selection as they were."""
+
+import sys
+
+import bmesh
+import bpy
+import pytest
+from made_meshes import (
+    RINGS,
+    SEGMENTS,
+    edit,
+    everything,
+    grooved_cylinder,
+    mesh_object,
+    pairs,
+    ring,
+    rough_loop,
+    select,
+)
+from minimum_ratio_contours import native
+
+
+def cancelled(obj, **properties):
+    """Runs the operator, which must cancel and change nothing."""
+    before = everything(obj)
+    assert bpy.ops.mesh.optimize_contour(**properties) == {"CANCELLED"}
+    assert everything(obj) == before
+
+
+@pytest.mark.parametrize("mode", ["VERTEX", "EDGE", "FACE"])
+@pytest.mark.parametrize("output", ["SELECT", "SEAM", "SHARP"])
+def test_nothing_selected(mode, output, last, capfd):
+    obj = grooved_cylinder()
+    edit(obj, mode=mode)
+    cancelled(obj, output=output)
+    assert last.message.startswith("Nothing to optimize: select a closed loop")
+    assert last.message in capfd.readouterr().out
+
+
+def test_one_vertex_selected(last):
+    obj = grooved_cylinder()
+    edit(obj, mode="VERTEX")
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    bm.verts[40].select_set(True)
+    cancelled(obj)
+    assert last.message.startswith("Nothing to optimize")
+
+
+def test_an_open_chain(last):
+    obj = grooved_cylinder()
+    edit(obj)
+    select(obj, pairs(ring(5)[:9], closed=False))
+    cancelled(obj, output="SEAM")
+    ends = f"from vertex {ring(5)[0]} to {ring(5)[8]}"
+    assert last.message == f"Left as it is: an open chain {ends}, only closed loops can be optimized"
+
+
+def test_everything_selected(last):
+    obj = grooved_cylinder()
+    edit(obj)
+    bpy.ops.mesh.select_all(action="SELECT")
+    cancelled(obj)
+    assert "a selection that branches at vertices 0, 1, 2 and " in last.message
+
+
+def test_the_whole_mesh_in_face_mode_has_no_border_to_move(last):
+    obj = grooved_cylinder()
+    edit(obj, mode="FACE")
+    bpy.ops.mesh.select_all(action="SELECT")
+    cancelled(obj)
+    assert last.message.startswith("Nothing to optimize")
+
+
+@pytest.mark.parametrize("row", [0, RINGS - 1])
+def test_a_loop_along_the_mesh_border_is_named(row, last):
+    obj = grooved_cylinder()
+    edit(obj)
+    select(obj, pairs(ring(row)))
+    cancelled(obj, output="SEAM")
+    assert "border" in last.message
+    assert any(str(vertex) in last.message for vertex in ring(row))
+
+
+def test_a_loop_along_hidden_faces_is_named(last):
+    obj = grooved_cylinder()
+    edit(obj)
+    bm = bmesh.from_edit_mesh(obj.data)
+    for face in bm.faces:
+        if max(vertex.index for vertex in face.verts) // SEGMENTS <= 5:
+            face.hide_set(True)
+    bmesh.update_edit_mesh(obj.data)
+    select(obj, pairs(ring(5)))
+    cancelled(obj)
+    assert last.message.startswith("Left as it is: ")
+
+
+def test_a_mesh_without_faces(last):
+    obj = mesh_object("Points", [(0, 0, 0), (1, 0, 0)], edges=[(0, 1)])
+    edit(obj)
+    bpy.ops.mesh.select_all(action="SELECT")
+    cancelled(obj)
+    assert "open chain" in last.message
+
+
+def test_an_empty_mesh():
+    obj = mesh_object("Empty", [])
+    edit(obj)
+    cancelled(obj)
+
+
+def without_library(monkeypatch):
+    monkeypatch.setitem(sys.modules, "minimum_ratio_contours.mrcontour", None)
+    monkeypatch.setitem(sys.modules, "mrcontour", None)
+
+
+def test_the_library_missing(monkeypatch, last):
+    obj = grooved_cylinder()
+    edit(obj)
+    select(obj, pairs(rough_loop(9)))
+    before = everything(obj)
+    without_library(monkeypatch)
+    # Blender turns an error that an operator reports into an exception for scripts.
+    with pytest.raises(RuntimeError, match="compiled library"):
+        bpy.ops.mesh.optimize_contour(output="SEAM")
+    assert everything(obj) == before
+    assert last.message == native.problem()
+
+
+def test_a_library_of_another_version(monkeypatch):
+    obj = grooved_cylinder()
+    edit(obj)
+    monkeypatch.setattr(native.module(), "__version__", "0.0.1")
+    with pytest.raises(RuntimeError, match="restart Blender"):
+        bpy.ops.mesh.optimize_contour()
+
+
+def test_object_mode():
+    grooved_cylinder()
+    assert not bpy.ops.mesh.optimize_contour.poll()
+    with pytest.raises(RuntimeError, match="Edit Mode"):
+        bpy.ops.mesh.optimize_contour()
+
+
+def test_edit_mode_of_something_else():
+    curve = bpy.data.objects.new("Curve", bpy.data.curves.new("Curve", "CURVE"))
+    bpy.context.scene.collection.objects.link(curve)
+    bpy.context.view_layer.objects.active = curve
+    bpy.ops.object.mode_set(mode="EDIT")
+    assert not bpy.ops.mesh.optimize_contour.poll()
+
+
+def test_no_object():
+    assert not bpy.ops.mesh.optimize_contour.poll()

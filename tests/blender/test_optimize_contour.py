@@ -1,0 +1,341 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""mesh.optimize_contour on made meshes: every output, several loops and objects, and what must stay as it is."""
+
+import bmesh
+import bpy
+import pytest
+from made_meshes import (
+    GROOVE,
+    RINGS,
+    SEGMENTS,
+    edge_set,
+    edit,
+    everything,
+    find_edges,
+    flagged,
+    grooved_cylinder,
+    mesh_object,
+    pairs,
+    ring,
+    rough_loop,
+    select,
+    select_faces_below,
+    set_flag,
+)
+
+GROOVE_EDGES = edge_set(ring(GROOVE))
+START = rough_loop(GROOVE - 3)
+
+
+def start(mode="EDGE", loop=START):
+    """A grooved cylinder in Edit Mode with a rough loop near the groove selected."""
+    obj = grooved_cylinder()
+    edit(obj, mode=mode)
+    select(obj, pairs(loop))
+    return obj
+
+
+def run(**properties):
+    return bpy.ops.mesh.optimize_contour(**properties)
+
+
+@pytest.mark.parametrize("mode", ["VERTEX", "EDGE"])
+def test_the_selection_moves_into_the_groove(mode, last, capfd):
+    obj = start(mode)
+    assert flagged(obj, "select") == edge_set(START)
+    assert run(output="SELECT") == {"FINISHED"}
+    assert flagged(obj, "select") == GROOVE_EDGES
+    assert not flagged(obj, "seam")
+    assert not flagged(obj, "sharp")
+    numbers = last.contours[0]
+    assert (numbers.place, numbers.status) == ("Cylinder", "improved")
+    assert numbers.ratio < numbers.initial_ratio
+    assert numbers.faces > 0
+    assert numbers.milliseconds > 0
+    assert last.message.startswith("1 contour improved. Ratio ")
+    assert f"Info: {last.message}" in capfd.readouterr().out
+
+
+@pytest.mark.parametrize("flow", ["GATES", "ARC_LENGTH", "HARMONIC"])
+def test_every_flow_finds_the_groove(flow):
+    obj = start()
+    run(flow=flow)
+    assert flagged(obj, "select") == GROOVE_EDGES
+
+
+@pytest.mark.parametrize("flag", ["seam", "sharp"])
+def test_a_flag_is_set_along_the_result_and_nowhere_else(flag):
+    obj = start()
+    other = {"seam": "sharp", "sharp": "seam"}[flag]
+    assert run(output=flag.upper()) == {"FINISHED"}
+    assert flagged(obj, flag) == flagged(obj, "select") == GROOVE_EDGES
+    assert not flagged(obj, other)
+
+
+@pytest.mark.parametrize("flag", ["seam", "sharp"])
+@pytest.mark.parametrize("keep_old", [False, True])
+def test_a_flag_along_the_given_loop_moves_unless_it_is_kept(flag, keep_old):
+    obj = start()
+    elsewhere = pairs(ring(2))
+    set_flag(obj, pairs(START) + elsewhere, flag)
+    run(output=flag.upper(), keep_old=keep_old)
+    expected = GROOVE_EDGES | {frozenset(pair) for pair in elsewhere}
+    assert flagged(obj, flag) == (expected | edge_set(START) if keep_old else expected)
+
+
+def test_the_whole_surface_reaches_farther_than_the_width():
+    obj = start(loop=rough_loop(2))
+    run(width=1, whole_surface=True)
+    assert flagged(obj, "select") == GROOVE_EDGES
+
+
+@pytest.mark.parametrize(("iterations", "arrives"), [(1, False), (64, True)])
+def test_iterations_reach_farther_than_one_search(iterations, arrives):
+    obj = start()
+    run(width=1, iterations=iterations)
+    assert (flagged(obj, "select") == GROOVE_EDGES) == arrives
+
+
+def test_an_unchanged_contour_is_output_all_the_same_and_the_report_says_why(last):
+    obj = start(loop=ring(GROOVE))
+    assert run(output="SEAM") == {"FINISHED"}
+    assert flagged(obj, "seam") == flagged(obj, "select") == GROOVE_EDGES
+    assert last.contours[0].status == "unchanged"
+    assert last.message.startswith("1 contour unchanged (")
+
+
+def test_several_loops_at_once(last):
+    obj = start()
+    select(obj, pairs(rough_loop(GROOVE + 1)))
+    run(output="SEAM")
+    assert flagged(obj, "seam") == GROOVE_EDGES
+    assert [numbers.status for numbers in last.contours] == ["improved", "improved"]
+    assert last.message.startswith("2 contours improved. Mean ratio ")
+
+
+def test_selected_faces_are_those_whose_edges_are_all_selected():
+    """A loop round one face selects that face too; it must not stay selected when the loop moves off."""
+    face = [5 * SEGMENTS, 5 * SEGMENTS + 1, 6 * SEGMENTS + 1, 6 * SEGMENTS]
+    obj = start(loop=face)
+    assert sum(face.select for face in bmesh.from_edit_mesh(obj.data).faces) == 1
+    run()
+    assert flagged(obj, "select") != edge_set(face)
+    for face in bmesh.from_edit_mesh(obj.data).faces:
+        assert face.select == all(edge.select for edge in face.edges)
+
+
+def test_branches_and_chains_stay_as_they_are_and_are_named(last, capfd):
+    obj = start()
+    branch = pairs(ring(3)) + [(3 * SEGMENTS, 4 * SEGMENTS)]
+    chain = pairs(ring(RINGS - 3)[:5], closed=False)
+    select(obj, branch + chain)
+    assert run(output="SEAM") == {"FINISHED"}
+    left = {frozenset(pair) for pair in branch + chain}
+    assert flagged(obj, "seam") == GROOVE_EDGES
+    assert flagged(obj, "select") == GROOVE_EDGES | left
+    assert f"Warning: {last.message}" in capfd.readouterr().out
+    assert f"branches at vertex {3 * SEGMENTS};" in last.message
+    assert f"open chain from vertex {ring(RINGS - 3)[0]} to {ring(RINGS - 3)[4]}" in last.message
+
+
+def test_the_border_of_selected_faces_in_face_mode():
+    obj = grooved_cylinder()
+    edit(obj, mode="FACE")
+    select_faces_below(obj, START)
+    run(output="SELECT")
+    # The region has two borders: the rough one moves into the groove, the one at ring 2 has nothing concave to go to.
+    assert flagged(obj, "select") >= GROOVE_EDGES
+    assert not edge_set(START) & (flagged(obj, "select") - GROOVE_EDGES)
+    assert tuple(bpy.context.tool_settings.mesh_select_mode) == (False, True, False)
+    assert not any(face.select for face in bmesh.from_edit_mesh(obj.data).faces)
+
+
+def select_first_faces(obj, count):
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.faces.ensure_lookup_table()
+    for face in bm.faces[:count]:
+        face.select_set(True)
+    bmesh.update_edit_mesh(obj.data)
+
+
+def test_a_region_up_to_the_mesh_border_has_only_its_inner_border():
+    obj = grooved_cylinder()
+    edit(obj, mode="FACE")
+    select_first_faces(obj, (GROOVE - 2) * SEGMENTS)
+    run(output="SELECT")
+    assert flagged(obj, "select") == GROOVE_EDGES
+
+
+def test_a_branching_border_of_faces_stays_selected(last):
+    obj = grooved_cylinder()
+    edit(obj, mode="FACE")
+    select_first_faces(obj, (GROOVE - 2) * SEGMENTS)
+    bm = bmesh.from_edit_mesh(obj.data)
+    touching = [(RINGS - 4) * SEGMENTS + 3, (RINGS - 3) * SEGMENTS + 4]  # two faces that share one vertex
+    for index in touching:
+        bm.faces[index].select_set(True)
+    border = {frozenset((a.index, b.index)) for index in touching for a, b in pairs(list(bm.faces[index].verts))}
+    run(output="SELECT")
+    assert "branches" in last.message
+    assert flagged(obj, "select") == GROOVE_EDGES | border
+
+
+def test_all_objects_in_edit_mode_are_done(last):
+    first, second = grooved_cylinder("First"), grooved_cylinder("Second")
+    edit(first, second)
+    for obj in (first, second):
+        select(obj, pairs(START))
+    assert run(output="SHARP") == {"FINISHED"}
+    assert flagged(first, "sharp") == flagged(second, "sharp") == GROOVE_EDGES
+    assert {numbers.place for numbers in last.contours} == {"First", "Second"}
+
+
+def test_faces_selected_in_several_objects():
+    first, second = grooved_cylinder("First"), grooved_cylinder("Second")
+    edit(first, second, mode="FACE")
+    for obj in (first, second):
+        select_first_faces(obj, (GROOVE - 2) * SEGMENTS)
+    run(output="SEAM")
+    for obj in (first, second):
+        assert flagged(obj, "seam") == flagged(obj, "select") == GROOVE_EDGES
+        assert bmesh.from_edit_mesh(obj.data).select_mode == {"EDGE"}
+
+
+def test_an_object_with_nothing_to_do_is_named_and_stays_as_it_is(last):
+    done, left = grooved_cylinder("Done"), grooved_cylinder("Left")
+    edit(done, left)
+    select(done, pairs(START))
+    select(left, pairs(START[:6], closed=False))
+    before = everything(left)
+    assert run(output="SEAM") == {"FINISHED"}
+    assert everything(left) == before
+    assert "Left: an open chain" in last.message
+
+
+def test_objects_that_share_a_mesh_are_done_once(last):
+    obj = grooved_cylinder()
+    twin = bpy.data.objects.new("Twin", obj.data)
+    bpy.context.scene.collection.objects.link(twin)
+    edit(obj, twin)
+    select(obj, pairs(START))
+    run()
+    assert len(last.contours) == 1
+    assert flagged(obj, "select") == GROOVE_EDGES
+
+
+def test_hidden_geometry_is_untouched():
+    obj = grooved_cylinder()
+    edit(obj)
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.faces.ensure_lookup_table()
+    hidden = [face.index for face in bm.faces[(GROOVE - 1) * SEGMENTS : (GROOVE + 1) * SEGMENTS]]
+    set_flag(obj, pairs(ring(GROOVE)), "sharp")
+    for edge in find_edges(bm, pairs(ring(GROOVE))):
+        edge.hide_set(True)
+    bmesh.update_edit_mesh(obj.data)
+    assert {face.index for face in bm.faces if face.hide} == set(hidden)
+    select(obj, pairs(rough_loop(GROOVE - 4)))
+    assert run(output="SEAM", width=8) == {"FINISHED"}
+    bm = bmesh.from_edit_mesh(obj.data)
+    assert {face.index for face in bm.faces if face.hide} == set(hidden)
+    assert not any(edge.hide and (edge.seam or edge.select) for edge in bm.edges)
+    assert flagged(obj, "sharp") == GROOVE_EDGES
+    assert flagged(obj, "seam")
+
+
+def test_measured_in_object_space(last):
+    """Mirroring, scaling and moving the object changes no number."""
+    obj = start()
+    run()
+    expected = last.contours[0].initial_ratio, last.contours[0].ratio
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.data.objects.remove(obj)
+    obj = start()
+    obj.scale = (-1, 1, 40)
+    obj.rotation_euler = (1, 2, 3)
+    obj.location = (0, 50, 0)
+    bpy.context.view_layer.update()
+    run()
+    assert flagged(obj, "select") == GROOVE_EDGES
+    assert (last.contours[0].initial_ratio, last.contours[0].ratio) == expected
+
+
+def test_an_active_shape_key_is_what_is_measured():
+    obj = grooved_cylinder(depth=0)
+    obj.shape_key_add(name="Basis")
+    key = obj.shape_key_add(name="Groove")
+    for vertex, point in zip(grooved_cylinder("Shape").data.vertices, key.data):
+        point.co = vertex.co
+    obj.active_shape_key_index = 1
+    edit(obj)
+    select(obj, pairs(START))
+    run()
+    assert flagged(obj, "select") == GROOVE_EDGES
+
+
+def test_ngons():
+    """Quads outside the band joined in pairs along the cylinder leave hexagons; the loop still finds the groove."""
+    obj = grooved_cylinder()
+    edit(obj)
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    across = [pair for row in range(1, RINGS - 2) for pair in pairs(ring(row)[: SEGMENTS // 4 : 2], closed=False)]
+    uprights = [(a, a + SEGMENTS) for a, _ in across if a // SEGMENTS not in (GROOVE - 4, GROOVE - 3, GROOVE - 2)]
+    bmesh.ops.dissolve_edges(bm, edges=find_edges(bm, uprights))
+    bm.normal_update()
+    bmesh.update_edit_mesh(obj.data)
+    assert max(len(face.verts) for face in bm.faces) > 4
+    select(obj, pairs(START))
+    assert run() == {"FINISHED"}
+    assert flagged(obj, "select") == GROOVE_EDGES
+
+
+def test_nothing_but_flags_and_selection_changes():
+    obj = grooved_cylinder()
+    mesh = obj.data
+    mesh.uv_layers.new(name="UVMap")
+    heat = mesh.attributes.new("Heat", "FLOAT", "POINT")
+    heat.data.foreach_set("value", [0.5 * vertex.index for vertex in mesh.vertices])
+    group = obj.vertex_groups.new(name="Group")
+    group.add(ring(4), 0.5, "ADD")
+    edit(obj)
+    select(obj, pairs(START))
+    set_flag(obj, pairs(ring(2)), "sharp")
+    before = everything(obj)
+    assert len(before["layers"]) >= 3
+    run(output="SEAM")
+    after = everything(obj)
+    assert after["layers"] == before["layers"]
+    assert [co for co, _, _ in after["vertices"]] == [co for co, _, _ in before["vertices"]]
+    assert [edge[:2] + edge[5:] for edge in after["edges"]] == [edge[:2] + edge[5:] for edge in before["edges"]]
+    assert [face[:4] for face in after["faces"]] == [face[:4] for face in before["faces"]]
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert not mesh.validate(verbose=True)
+    assert sum(edge.use_seam for edge in mesh.edges) == SEGMENTS
+
+
+@pytest.mark.parametrize("live", [False, True])
+def test_live_unwrap_follows_a_new_seam(live):
+    obj = grooved_cylinder()
+    obj.data.uv_layers.new(name="UVMap")
+    bpy.context.scene.tool_settings.use_edge_path_live_unwrap = live
+    edit(obj)
+    chain = pairs(ring(3)[:5], closed=False)
+    select(obj, pairs(START) + chain)
+    uv = ("corner", "uv", "UVMap")
+    before = everything(obj)["layers"][uv]
+    run(output="SEAM")
+    assert (everything(obj)["layers"][uv] != before) == live
+    assert flagged(obj, "seam") == GROOVE_EDGES
+    assert flagged(obj, "select") == GROOVE_EDGES | {frozenset(pair) for pair in chain}
+
+
+def test_loops_of_loose_edges_are_named(last):
+    positions = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+    obj = mesh_object("Wire", positions, edges=pairs([0, 1, 2, 3]))
+    edit(obj)
+    select(obj, pairs([0, 1, 2, 3]))
+    before = everything(obj)
+    assert run() == {"CANCELLED"}
+    assert "a loop with loose edges that no face uses (0-1, 1-2, 2-3 and 1 more)" in last.message
+    assert everything(obj) == before

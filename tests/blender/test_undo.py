@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Undo and redo give back the very same mesh; neither they nor a second run build the native surface again."""
+
+import bpy
+import pytest
+from made_meshes import (
+    GROOVE,
+    edge_set,
+    edit,
+    everything,
+    flagged,
+    grooved_cylinder,
+    pairs,
+    ring,
+    rough_loop,
+    select,
+    set_flag,
+)
+from minimum_ratio_contours import api, mesh_access, native
+
+
+def prepared():
+    obj = grooved_cylinder()
+    edit(obj)
+    loop = rough_loop(GROOVE - 3)
+    set_flag(obj, pairs(loop), "seam")
+    select(obj, pairs(loop))
+    bpy.ops.ed.undo_push(message="prepared")
+
+
+def cylinder():
+    """Undo replaces the objects: they must be looked up again."""
+    return bpy.data.objects["Cylinder"]
+
+
+def surface():
+    mesh_access.synchronize(cylinder())
+    return api.surface_of(cylinder())
+
+
+@pytest.mark.parametrize("output", ["SELECT", "SEAM", "SHARP"])
+def test_undo_and_redo(output):
+    prepared()
+    before = everything(cylinder())
+    assert bpy.ops.mesh.optimize_contour("EXEC_DEFAULT", True, output=output) == {"FINISHED"}
+    after = everything(cylinder())
+    assert after != before
+    bpy.ops.ed.undo()
+    assert everything(cylinder()) == before
+    bpy.ops.ed.redo()
+    assert everything(cylinder()) == after
+
+
+def test_a_second_run_after_undo_uses_the_same_surface():
+    prepared()
+    bpy.ops.mesh.optimize_contour("EXEC_DEFAULT", True, width=1)
+    first = surface()
+    bpy.ops.ed.undo()
+    bpy.ops.mesh.optimize_contour("EXEC_DEFAULT", True, width=4)
+    assert surface() is first
+    assert flagged(cylinder(), "select") == edge_set(ring(GROOVE))
+
+
+def test_a_moved_vertex_or_a_hidden_face_makes_a_new_surface():
+    obj = grooved_cylinder()
+    first = surface()
+    assert surface() is first
+    obj.data.vertices[5].co.x += 1e-3
+    second = surface()
+    assert second is not first
+    obj.data.polygons[5].hide = True
+    assert surface() not in (first, second)
+
+
+def test_several_objects_keep_their_surfaces_and_no_others_are_kept(monkeypatch):
+    make, built = native.module().Surface, []
+
+    def counted(**arrays):
+        built.append(make(**arrays))
+        return built[-1]
+
+    monkeypatch.setattr(native.module(), "Surface", counted)
+    objects = [grooved_cylinder("First"), grooved_cylinder("Second")]
+    edit(*objects)
+    for obj in objects:
+        select(obj, pairs(rough_loop(GROOVE - 3)))
+    for width in (2, 4):
+        bpy.ops.mesh.optimize_contour(width=width)
+    assert len(built) == 2
+    api.surface_of(objects[0])
+    api.surface_of(objects[1])
+    assert len(built) == 3

@@ -1,0 +1,259 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Makers of test meshes, and of rough contours on them."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Polygons with the triangulation that the tests prescribe (n - 2 triangles for each polygon, in face order)."""
+
+    positions: np.ndarray
+    faces: tuple
+    triangles: np.ndarray
+
+    @property
+    def face_offsets(self):
+        return np.cumsum([0] + [len(face) for face in self.faces]).astype(np.int32)
+
+    @property
+    def face_vertices(self):
+        return np.concatenate([np.asarray(face, dtype=np.int32) for face in self.faces])
+
+    def arguments(self):
+        """What `mrcontour.Surface` takes, in its order."""
+        return self.positions, self.face_offsets, self.face_vertices, self.triangles
+
+    def real_edges(self):
+        """The polygons' edges, as sorted vertex pairs."""
+        pairs = {tuple(sorted(pair)) for face in self.faces for pair in zip(face, np.roll(face, -1), strict=True)}
+        return np.array(sorted(pairs), dtype=np.int32)
+
+    def moved(self, positions):
+        return replace(self, positions=np.ascontiguousarray(positions, dtype=np.float64))
+
+
+def polygon_mesh(positions, faces, flips=None):
+    """Fan triangulation of each polygon from its first corner, or from its second where `flips` says so."""
+    faces = tuple(tuple(int(v) for v in face) for face in faces)
+    flips = np.zeros(len(faces), dtype=bool) if flips is None else flips
+    triangles = []
+    for face, flip in zip(faces, flips, strict=True):
+        ring = face[1:] + face[:1] if flip else face
+        triangles += [(ring[0], ring[i], ring[i + 1]) for i in range(1, len(ring) - 1)]
+    positions = np.ascontiguousarray(positions, dtype=np.float64)
+    return Mesh(positions, faces, np.array(triangles, dtype=np.int32))
+
+
+def grid_faces(rows, columns, closed_rows=False, closed_columns=True):
+    """Quads of a grid whose vertex (row, column) has the number row * columns + column. Seen from outside the columns
+    run to the right and the rows up."""
+    faces = []
+    for row in range(rows if closed_rows else rows - 1):
+        for column in range(columns if closed_columns else columns - 1):
+            right, up = (column + 1) % columns, (row + 1) % rows
+            faces.append((row * columns + column, row * columns + right, up * columns + right, up * columns + column))
+    return faces
+
+
+def split_quads(faces, rng, share=1.0):
+    """Splits a share of the quads into two triangles along a random diagonal."""
+    result = []
+    for a, b, c, d in faces:
+        if rng.random() >= share:
+            result.append((a, b, c, d))
+        elif rng.random() < 0.5:
+            result += [(a, b, c), (a, c, d)]
+        else:
+            result += [(a, b, d), (b, c, d)]
+    return result
+
+
+def random_flips(faces, rng):
+    return rng.random(len(faces)) < 0.5
+
+
+def jittered_annulus(rng, rings, columns, split_share=1.0, height=0.4):
+    """A flat ring of cells with jittered radii, angles and heights; its two borders are mesh borders."""
+    radius = 2.0 + np.arange(rings)[:, None] + rng.uniform(-0.25, 0.25, (rings, columns))
+    angle = -2 * np.pi * (np.arange(columns)[None, :] + rng.uniform(-0.25, 0.25, (rings, columns))) / columns
+    z = rng.uniform(-height, height, (rings, columns))
+    positions = np.stack([radius * np.cos(angle), radius * np.sin(angle), z], axis=-1).reshape(-1, 3)
+    faces = split_quads(grid_faces(rings, columns), rng, split_share)
+    return polygon_mesh(positions, faces, random_flips(faces, rng))
+
+
+def tube(radius, columns, step=1.0, split_share=0.0, rng=None, noise=0.0):
+    """A quad tube round the z axis with one radius for each ring, open at both ends."""
+    rows = len(radius)
+    rng = rng or np.random.default_rng(0)
+    angle = 2 * np.pi * np.arange(columns) / columns
+    circle = np.stack([np.cos(angle), np.sin(angle), np.zeros(columns)], axis=-1)
+    positions = np.asarray(radius)[:, None, None] * circle + np.arange(rows)[:, None, None] * [0.0, 0.0, step]
+    positions = positions.reshape(-1, 3) + noise * rng.standard_normal((rows * columns, 3))
+    faces = split_quads(grid_faces(rows, columns), rng, split_share)
+    return polygon_mesh(positions, faces, random_flips(faces, rng))
+
+
+def trapezoid_tube(rng, rows, columns):
+    """Random tube whose quads are irregular trapezoids, planar: one cross-section, scaled and shifted for each ring."""
+    angle = 2 * np.pi * (np.arange(columns) + rng.uniform(-0.3, 0.3, columns)) / columns
+    section = np.stack([np.cos(angle), np.sin(angle)], axis=-1) * rng.uniform(0.85, 1.15, (columns, 1))
+    scale = 2.0 + 0.5 * np.sin(np.arange(rows) * 0.9) + rng.uniform(-0.2, 0.2, rows)
+    shift = rng.uniform(-0.2, 0.2, (rows, 2))
+    flat = scale[:, None, None] * section + shift[:, None, :]
+    z = np.cumsum(rng.uniform(0.3, 0.6, rows))
+    positions = np.concatenate([flat, np.broadcast_to(z[:, None, None], (rows, columns, 1))], axis=-1)
+    return polygon_mesh(positions.reshape(-1, 3), grid_faces(rows, columns))
+
+
+def square_prism(side, rows):
+    """A square tube of squares that are all the same, with edges of 1/3."""
+    step = np.arange(side) / 3
+    path = [(x, 0) for x in step] + [(side / 3, y) for y in step]
+    path += [(side / 3 - x, side / 3 - y) for x, y in path]
+    layers = [np.column_stack([path, np.full(4 * side, row / 3)]) for row in range(rows)]
+    return polygon_mesh(np.concatenate(layers), grid_faces(rows, 4 * side))
+
+
+def torus(rows, columns, major=3.0, minor=1.0, rng=None, split_share=0.0, noise=0.0, grooves=0.0):
+    """`columns` along the tube's long way, `rows` round its section; grooves narrow it at three places."""
+    rng = rng or np.random.default_rng(0)
+    long, short = np.meshgrid(2 * np.pi * np.arange(columns) / columns, 2 * np.pi * np.arange(rows) / rows)
+    thickness = minor * (1 - grooves * np.cos(1.5 * long) ** 8)
+    ring = major + thickness * np.cos(short)
+    positions = np.stack([ring * np.cos(long), ring * np.sin(long), thickness * np.sin(short)], axis=-1).reshape(-1, 3)
+    positions = positions + noise * rng.standard_normal(positions.shape)
+    faces = split_quads(grid_faces(rows, columns, closed_rows=True), rng, split_share)
+    return polygon_mesh(positions, faces, random_flips(faces, rng))
+
+
+def bent_tube(rng, rows=60, columns=24):
+    """A quarter of a bent tube, triangulated at random, with a waist in the middle."""
+    along = np.linspace(0, np.pi / 2, rows)
+    radius = 1.0 - 0.35 * np.exp(-(((along - np.pi / 4) / 0.12) ** 2))
+    angle = 2 * np.pi * np.arange(columns) / columns
+    ring = 4.0 - radius[:, None] * np.cos(angle)
+    positions = np.stack([ring * np.cos(along)[:, None], ring * np.sin(along)[:, None],
+                          radius[:, None] * np.sin(angle)], axis=-1).reshape(-1, 3)
+    positions += 0.01 * rng.standard_normal(positions.shape)
+    faces = split_quads(grid_faces(rows, columns), rng)
+    return polygon_mesh(positions, faces)
+
+
+def subdivided(positions, faces):
+    """Each triangle in four; new points, on the unit sphere, are appended to the list of positions."""
+    middles, result = {}, []
+    for a, b, c in faces:
+        for p, q in ((a, b), (b, c), (c, a)):
+            if (q, p) not in middles:
+                point = positions[p] + positions[q]
+                middles[p, q] = middles[q, p] = len(positions)
+                positions.append(point / np.linalg.norm(point))
+        ab, bc, ca = middles[a, b], middles[b, c], middles[c, a]
+        result += [(a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca)]
+    return result
+
+
+def icosphere(subdivisions):
+    """A unit sphere of triangles."""
+    golden = (1 + np.sqrt(5)) / 2
+    positions = [(-1, golden, 0), (1, golden, 0), (-1, -golden, 0), (1, -golden, 0), (0, -1, golden), (0, 1, golden),
+                 (0, -1, -golden), (0, 1, -golden), (golden, 0, -1), (golden, 0, 1), (-golden, 0, -1), (-golden, 0, 1)]
+    positions = [np.array(p) / np.linalg.norm(p) for p in positions]
+    faces = [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4), (11, 10, 2), (10, 7, 6),
+             (7, 1, 8), (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5), (2, 4, 11), (6, 2, 10),
+             (8, 6, 7), (9, 8, 1)]
+    for _ in range(subdivisions):
+        faces = subdivided(positions, faces)
+    return polygon_mesh(np.array(positions), faces)
+
+
+def peanut(rng, subdivisions=4):
+    """A closed body with a waist and bumps: a sphere, displaced along its normals."""
+    sphere = icosphere(subdivisions)
+    unit = sphere.positions
+    centres = rng.standard_normal((6, 3))
+    centres /= np.linalg.norm(centres, axis=1, keepdims=True)
+    bumps = 0.15 * np.exp(8 * (unit @ centres.T - 1)).sum(axis=1)
+    radius = 0.6 + 0.9 * unit[:, 2] ** 2 + bumps
+    return sphere.moved(radius[:, None] * unit + 0.003 * rng.standard_normal(unit.shape))
+
+
+def finger(rng, columns=32, edge=0.2, length=4.0, base=1.0, tip=0.6):
+    """A finger on a palm, made by turning a profile: a flat palm, the concave base ring, a shaft that narrows towards
+    the tip all the way, and a round tip. Triangulated at random. Returns the mesh and the base ring's vertices (the
+    ring at the profile's only concave corner)."""
+    palm = [(r, 0.0) for r in np.arange(base + 8 * edge, base + 0.5 * edge, -edge)]
+    shaft_rows = round(length / edge)
+    shaft = [(base + (tip - base) * t, length * t) for t in np.linspace(0, 1, shaft_rows + 1)]
+    tip_rows = round(tip * np.pi / 2 / edge)
+    cap = [(tip * np.cos(a), length + tip * np.sin(a)) for a in np.linspace(0, np.pi / 2, tip_rows + 1)[1:-1]]
+    profile = palm + shaft + cap
+    angle = 2 * np.pi * np.arange(columns) / columns
+    rings = [np.stack([r * np.cos(angle), r * np.sin(angle), np.full(columns, z)], axis=-1) for r, z in profile]
+    positions = np.concatenate([*rings, np.array([[0.0, 0.0, length + tip]])])
+    positions = positions + 0.03 * edge * rng.standard_normal(positions.shape)
+    faces = split_quads(grid_faces(len(profile), columns), rng)
+    last, pole = (len(profile) - 1) * columns, len(profile) * columns
+    faces += [(last + c, last + (c + 1) % columns, pole) for c in range(columns)]
+    return polygon_mesh(positions, faces), len(palm) * columns + np.arange(columns)
+
+
+def zigzag_contour(rng, columns, lowest, highest, step_chance=0.5):
+    """A random closed contour round a grid's columns, along the grid's edges, between two rows. It never turns back."""
+    rows = [int(rng.integers(lowest, highest + 1))]
+    for _ in range(columns - 1):
+        step = int(rng.choice([-1, 1])) if rng.random() < step_chance else 0
+        rows.append(int(np.clip(rows[-1] + step, lowest, highest)))
+    contour = []
+    for column, (row, following) in enumerate(zip(rows, rows[1:] + rows[:1], strict=True)):
+        direction = 1 if following > row else -1
+        contour += [r * columns + column for r in range(row, following, direction)] + [following * columns + column]
+    return np.array(contour, dtype=np.int32)
+
+
+def plane_contours(mesh, normal, offset):
+    """The jagged loops between the polygons whose centre lies above a plane (on their left) and the others. Loops that
+    touch themselves or each other are left out, and so are those on the mesh border."""
+    centres = np.array([mesh.positions[list(face)].mean(axis=0) for face in mesh.faces])
+    above = centres @ np.asarray(normal, dtype=float) > offset
+    owner = {edge: i for i, face in enumerate(mesh.faces) for edge in zip(face, face[1:] + face[:1], strict=True)}
+    following, branched = {}, set()
+    for (a, b), face in owner.items():
+        twin = owner.get((b, a))
+        if above[face] and twin is not None and not above[twin]:
+            branched |= {a} & set(following)
+            following[a] = b
+    loops, seen = [], set()
+    for start in sorted(following):
+        loop, v = [], start
+        while v not in seen and v in following:
+            seen.add(v)
+            loop.append(v)
+            v = following[v]
+        if len(loop) >= 3 and v == start and not branched & set(loop):
+            loops.append(np.array(loop, dtype=np.int32))
+    return loops
+
+
+def renumbered(mesh, rng):
+    """Vertices, faces and every face's first corner in another order. Returns the mesh and each vertex's new number."""
+    number = rng.permutation(len(mesh.positions))
+    positions = np.empty_like(mesh.positions)
+    positions[number] = mesh.positions
+    starts = np.cumsum([0] + [len(face) - 2 for face in mesh.faces])
+    faces, triangles = [], []
+    for i in rng.permutation(len(mesh.faces)):
+        faces.append(tuple(number[np.roll(mesh.faces[i], rng.integers(len(mesh.faces[i])))].tolist()))
+        own = mesh.triangles[starts[i]:starts[i + 1]]
+        triangles += [np.roll(number[t], rng.integers(3)) for t in own[rng.permutation(len(own))]]
+    return Mesh(positions, tuple(faces), np.array(triangles, dtype=np.int32)), number
+
+
+def rigidly_moved(mesh, rng):
+    rotation, _ = np.linalg.qr(rng.standard_normal((3, 3)))
+    rotation *= np.linalg.det(rotation)     # no mirror image
+    return mesh.moved(mesh.positions @ rotation.T + rng.uniform(-5, 5, 3))

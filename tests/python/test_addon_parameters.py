@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The add-on's settings table against the native options, and its version against the module's, without Blender."""
+
+import ast
+import importlib
+import sys
+from pathlib import Path
+
+import mrcontour as mrc
+import pytest
+import tomllib
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))
+parameters = importlib.import_module("addon.parameters")
+native = importlib.import_module("addon.native")
+
+
+def choices(row):
+    """The values of a setting that a user can reach, at least the extreme ones."""
+    if "items" in row:
+        return [item[0] for item in row["items"]]
+    return [row["min"], row["max"]] if "min" in row else [False, True]
+
+
+REACHABLE = [(name, value) for name, row in parameters.SETTINGS.items() for value in choices(row)]
+
+
+@pytest.mark.parametrize(("name", "value"), REACHABLE)
+def test_every_value_of_a_setting_is_a_native_option(name, value):
+    mrc.Options(**parameters.native_options(**{name: value}))
+
+
+@pytest.mark.parametrize("name", parameters.SETTINGS)
+def test_no_setting_is_dead(name):
+    row = parameters.SETTINGS[name]
+    other = next(value for value in choices(row) if value != row["default"])
+    assert parameters.native_options(**{name: other}) != parameters.native_options()
+
+
+def test_the_whole_surface_has_no_width():
+    assert parameters.native_options(width=7, whole_surface=True)["width"] is None
+    assert parameters.native_options(width=7)["width"] == 7
+
+
+def test_an_unknown_setting_is_named():
+    with pytest.raises(TypeError, match="widht"):
+        parameters.native_options(widht=4)
+
+
+def test_one_version_everywhere():
+    with open(ROOT / "addon" / "blender_manifest.toml", "rb") as file:
+        manifest = tomllib.load(file)
+    (info,) = (
+        ast.literal_eval(node.value)
+        for node in ast.parse((ROOT / "addon" / "__init__.py").read_text()).body
+        if isinstance(node, ast.Assign)
+    )
+    assert manifest["version"] == native.VERSION == mrc.__version__ == ".".join(map(str, info["version"]))
+
+
+def test_the_module_is_found():
+    assert native.module() is mrc
+    assert native.problem() == ""
+
+
+def test_a_missing_module_is_explained(monkeypatch):
+    monkeypatch.setitem(sys.modules, "mrcontour", None)
+    assert "source only" in native.problem()
+
+
+def test_a_module_for_another_python_is_explained(monkeypatch, tmp_path):
+    (tmp_path / "mrcontour.cpython-399-x86_64-linux-gnu.so").touch()
+    monkeypatch.setattr(native, "__file__", str(tmp_path / "native.py"))
+    monkeypatch.setitem(sys.modules, "mrcontour", None)
+    assert "cpython-399" in native.problem()
+
+
+def test_a_module_that_does_not_load_is_explained(monkeypatch, tmp_path):
+    (tmp_path / "mrcontour.py").write_text("import a_module_that_is_not_there")
+    monkeypatch.delitem(sys.modules, "mrcontour")
+    monkeypatch.syspath_prepend(tmp_path)
+    assert "a_module_that_is_not_there" in native.problem()
+
+
+def test_another_version_asks_for_a_restart(monkeypatch):
+    monkeypatch.setattr(mrc, "__version__", "0.0.1")
+    with pytest.raises(native.Unavailable, match="restart Blender"):
+        native.module()
