@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import bpy
 import numpy as np
-from bpy.props import BoolProperty, EnumProperty, IntProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from . import api, contours, mesh_access, native, panels, report
 from .parameters import SETTINGS
@@ -16,7 +16,15 @@ class ContourSettings:
 
     width: IntProperty(**SETTINGS["width"])
     whole_surface: BoolProperty(**SETTINGS["whole_surface"])
+    reach: FloatProperty(**SETTINGS["reach"])
     iterations: IntProperty(**SETTINGS["iterations"])
+    length_bias: FloatProperty(**SETTINGS["length_bias"])
+    length_floor: FloatProperty(**SETTINGS["length_floor"])
+    anchor: FloatProperty(**SETTINGS["anchor"])
+    crease: FloatProperty(**SETTINGS["crease"])
+    feature_clamp: FloatProperty(**SETTINGS["feature_clamp"])
+    min_salience: FloatProperty(**SETTINGS["min_salience"])
+    max_turn: FloatProperty(**SETTINGS["max_turn"])
     flow: EnumProperty(**SETTINGS["flow"])
 
     def settings(self):
@@ -73,6 +81,7 @@ class MESH_OT_optimize_contour(ContourSettings, bpy.types.Operator):
 
     def draw(self, context):
         panels.draw_settings(self.layout, self)
+        panels.draw_more_settings(self.layout, self)
 
     def _write(self, context, parts, face_mode):
         if self.output != "SELECT":

@@ -7,6 +7,7 @@ import bpy
 from bpy.props import CollectionProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
 from . import native, report
+from .parameters import MAIN, MORE
 
 OPERATOR = "mesh.optimize_contour"
 _SHOWN = 8  # contours with their numbers in the panel
@@ -54,8 +55,15 @@ def draw_settings(layout, settings):
     row = layout.row()
     row.use_property_split = False  # beside a split the name would not fit into a sidebar of the usual width
     row.prop(settings, "whole_surface")
-    layout.prop(settings, "iterations")
-    layout.prop(settings, "flow")
+    for name in MAIN:
+        layout.prop(settings, name)
+
+
+def draw_more_settings(layout, settings):
+    layout.use_property_split = True
+    layout.use_property_decorate = False
+    for name in MORE:
+        layout.prop(settings, name)
 
 
 class VIEW3D_PT_minimum_ratio_contours(bpy.types.Panel):
@@ -77,6 +85,18 @@ class VIEW3D_PT_minimum_ratio_contours(bpy.types.Panel):
         last = context.window_manager.minimum_ratio_contours
         if last.message:
             _draw_result(layout.box(), context, last)
+
+
+class VIEW3D_PT_minimum_ratio_contours_more(bpy.types.Panel):
+    bl_label = "More Settings"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Contours"
+    bl_parent_id = "VIEW3D_PT_minimum_ratio_contours"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        draw_more_settings(self.layout.column(), context.window_manager.operator_properties_last(OPERATOR))
 
 
 def _draw_result(box, context, last):
@@ -112,7 +132,12 @@ def _draw_menu(self, context):
     self.layout.operator(OPERATOR)
 
 
-_CLASSES = (ContourNumbers, LastResult, VIEW3D_PT_minimum_ratio_contours)
+_CLASSES = (
+    ContourNumbers,
+    LastResult,
+    VIEW3D_PT_minimum_ratio_contours,
+    VIEW3D_PT_minimum_ratio_contours_more,
+)
 
 
 def register():

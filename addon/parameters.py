@@ -1,12 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The settings that users see, as one table, and what they mean to the native module. Needs no Blender."""
+"""The settings that users see, as one table, and what they mean to the native module. Needs no Blender.
+
+The defaults are those that land closest to where people draw part boundaries.
+"""
+
+import math
 
 # Each row is what a property of bpy.props takes, so that operators and documents share one wording and one default.
+# Lengths are measured in the mesh's own space; weights have no unit.
 SETTINGS = {
     "width": {
         "name": "Width",
-        "description": "How many rings of faces to each side of the loop are searched",
-        "default": 4,
+        "description": "How many rings of faces to each side of the loop are searched at most",
+        "default": 8,
         "min": 1,
         "max": 64,
     },
@@ -15,24 +21,89 @@ SETTINGS = {
         "description": "Search as far as the surface goes, instead of a number of rings",
         "default": False,
     },
+    "reach": {
+        "name": "Reach",
+        "description": "From the third ring on, search no farther from the loop than this share of the part's average "
+        "radius, so that fine and coarse meshes behave alike; 0: as far as the rings go",
+        "default": 0.16,
+        "min": 0.0,
+        "soft_max": 2.0,
+    },
     "iterations": {
         "name": "Iterations",
         "description": "How often to search again from the contour found; ends early where nothing moves",
-        "default": 1,
+        "default": 2,
         "min": 1,
         "max": 64,
+    },
+    "length_bias": {
+        "name": "Short",
+        "description": "How much a short contour is preferred to a deep one; 0: depth alone counts",
+        "default": 2.0,
+        "min": 0.0,
+        "soft_max": 10.0,
+    },
+    "length_floor": {
+        "name": "Shortest",
+        "description": "Below this share of the given loop's length nothing is gained by being shorter, "
+        "so that no contour slides onto a tip",
+        "default": 0.5,
+        "min": 0.0,
+        "max": 1.0,
+    },
+    "anchor": {
+        "name": "Stay Near",
+        "description": "How strongly the contour is held near the given loop: a far crease must be worth the way",
+        "default": 0.5,
+        "min": 0.0,
+        "soft_max": 10.0,
+    },
+    "crease": {
+        "name": "Creases",
+        "description": "How strongly crisp concave edges pull the contour onto themselves, and convex ones push it off",
+        "default": 0.5,
+        "min": 0.0,
+        "soft_max": 10.0,
+    },
+    "feature_clamp": {
+        "name": "Even Depth",
+        "description": "Depth counts up to this quantile of what is found near the loop, so that one deep crease does "
+        "not outweigh a whole boundary; 1: all of it",
+        "default": 0.9,
+        "min": 0.01,
+        "max": 1.0,
+    },
+    "min_salience": {
+        "name": "Least Salience",
+        "description": "Leave the loop as it is where the best contour found is less salient than this: "
+        "there is nothing concave to find; 0: always move it",
+        "default": 0.25,
+        "min": 0.0,
+        "soft_max": 3.0,
+    },
+    "max_turn": {
+        "name": "Sharpest Turn",
+        "description": "Contours do not turn more than this within the surface. A little above a right angle lets them "
+        "climb quads in stairs",
+        "default": math.radians(100.0),
+        "min": math.radians(10.0),
+        "max": math.pi,
+        "subtype": "ANGLE",
     },
     "flow": {
         "name": "Flow",
         "description": "What tells the search which way is forward along the loop",
         "items": (
+            ("HARMONIC", "Harmonic", "As heat would flow round the band; does not depend on where the loop starts"),
             ("GATES", "Gates", "Short segments across the band keep the curves along it in step"),
             ("ARC_LENGTH", "Arc Length", "Each curve along the band advances by its own length"),
-            ("HARMONIC", "Harmonic", "As heat would flow round the band; does not depend on where the loop starts"),
         ),
-        "default": "GATES",
+        "default": "HARMONIC",
     },
 }
+
+MAIN = ("iterations", "length_bias", "anchor")  # besides the width; the others are for those who look for them
+MORE = ("reach", "length_floor", "crease", "feature_clamp", "min_salience", "max_turn", "flow")
 
 
 def native_options(**settings):
@@ -41,8 +112,11 @@ def native_options(**settings):
     if unknown:
         raise TypeError(f"unknown settings: {', '.join(unknown)}; there are {', '.join(SETTINGS)}")
     values = {name: row["default"] for name, row in SETTINGS.items()} | settings
-    return {
+    plain = ("iterations", "length_bias", "length_floor", "anchor", "crease", "max_turn")
+    return {name: values[name] for name in plain} | {
         "width": None if values["whole_surface"] else values["width"],
-        "iterations": values["iterations"],
+        "band_distance": values["reach"] if values["reach"] > 0 and not values["whole_surface"] else None,
+        "feature_clamp": values["feature_clamp"] if values["feature_clamp"] < 1 else None,
+        "min_salience": values["min_salience"] if values["min_salience"] > 0 else None,
         "flow": values["flow"].lower(),
     }

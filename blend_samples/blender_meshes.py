@@ -6,6 +6,7 @@ import numpy as np
 from rough_loops import Polygons
 
 ROUGH = "rough_loop."  # a boolean edge attribute for each rough loop: this, then the loop's name
+SETTINGS = "settings."  # a custom property of the object for each rough loop that needs more than the defaults
 TRUE = "true_loop."  # likewise, where a loop ought to land by construction
 
 
@@ -62,13 +63,13 @@ def stored_mask(mesh, attribute):
 
 
 def ordered_loop(mesh, mask):
-    """The vertices of the one closed loop that the marked edges form."""
+    """The vertices of the one closed loop that the marked edges form, in the add-on's order for selected edges."""
     neighbours = {}
     for a, b in edge_pairs(mesh)[mask].tolist():
         neighbours.setdefault(a, []).append(b)
         neighbours.setdefault(b, []).append(a)
     start = min(neighbours)
-    loop, last, here = [start], start, neighbours[start][0]
+    loop, last, here = [start], start, min(neighbours[start])
     while here != start:
         loop.append(here)
         last, here = here, next(v for v in neighbours[here] if v != last)

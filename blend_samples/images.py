@@ -50,5 +50,7 @@ def save(pixels, path):
     height, width = pixels.shape[:2]
     image = bpy.data.images.new(path.stem, width, height)
     image.pixels.foreach_set(np.concatenate([pixels, np.ones_like(pixels[:, :, :1])], axis=2).ravel())
-    image.filepath_raw, image.file_format = str(path), "PNG"
-    image.save()
+    scene = bpy.data.scenes.new("save")
+    workbench(scene, width, height)
+    scene.render.image_settings.color_mode, scene.render.image_settings.compression = "RGB", 100
+    image.save_render(str(path), scene=scene)

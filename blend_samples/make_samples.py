@@ -4,12 +4,13 @@
     blender -b --factory-startup --python-exit-code 1 --python blend_samples/make_samples.py
 
 Each holds one mesh with its rough loops as boolean edge attributes `rough_loop.NAME`, all of them selected (so go to
-Edit Mode and press Optimize Contour), and the widths of their bands as custom properties `width.NAME` of the object.
-Where the construction says where a contour ought to land, those edges are in `true_loop.NAME`.
+Edit Mode and press Optimize Contour). Settings that a loop needs besides the add-on's defaults are in the custom
+property `settings.NAME` of the object; `rough_loops` has the rule. Where the construction says where a contour ought
+to land, those edges are in `true_loop.NAME`.
 """
 
 import sys
-from math import ceil, radians
+from math import radians
 from pathlib import Path
 
 import bpy
@@ -21,67 +22,54 @@ sys.path.insert(0, str(HERE))
 
 import blender_meshes  # noqa: E402
 import shapes  # noqa: E402
-from rough_loops import Cut, rough_loop  # noqa: E402
+from rough_loops import Cut, border_loop, rough_loop, settings  # noqa: E402
 
 # The fingers' planes: axis and degrees by which they are tilted from right across the finger.
 TILTS = {"index": ("Y", 14.0), "middle": ("X", 18.0), "ring": ("Y", -12.0), "little": ("X", 15.0), "thumb": ("Y", 20.0)}
 
 CUTS = {
     "torso": [
-        Cut("waist", (0.0, 0.0, 6.0), (0.25, 0.15, 1.0), 10),
-        Cut("neck", (0.0, 0.0, 13.9), (-0.2, 0.2, 1.0), 6),
-        Cut("shoulder", (5.4, 0.0, 11.5), (1.0, 0.0, 0.3), 6),
+        Cut("waist", (0.0, 0.0, 6.0), (0.25, 0.15, 1.0), end=(0.0, 0.0, 5.0)),
+        Cut("neck", (0.0, 0.0, 13.9), (-0.2, 0.2, 1.0)),
+        Cut("shoulder", (5.4, 0.0, 11.5), (1.0, 0.0, 0.3)),
     ],
     "head": [
-        Cut("neck", (0.0, 0.4, -4.4), (0.15, 0.25, 1.0), 8),
-        Cut("nose", (0.0, -3.4, -0.6), (0.1, -1.0, 0.25), 5),
-        Cut("ear", (3.1, 0.2, -0.5), (1.0, 0.2, 0.2), 6),
+        Cut("neck", (0.0, 0.4, -4.4), (0.15, 0.25, 1.0), end=(0.0, 0.5, -5.8)),
+        Cut("nose", (0.0, -3.4, -0.6), (0.1, -1.0, 0.25)),
+        Cut("ear", (3.1, 0.2, -0.5), (1.0, 0.2, 0.2), end=(2.5, 0.2, -0.5)),
     ],
     "suzanne": [
-        Cut("ear", (-1.0, 0.25, 0.1), (-1.0, 0.2, 0.3), 6),
-        Cut("muzzle", (0.0, -0.5, -0.55), (0.2, -0.35, -1.0), 8),
+        Cut("ear", (-1.0, 0.25, 0.1), (-1.0, 0.2, 0.3)),
+        Cut("muzzle", (0.0, -0.5, -0.55), (0.2, -0.35, -1.0)),
     ],
     "bottle": [
-        Cut("neck", (0.0, 0.0, 13.9), (0.3, 0.1, 1.0), 8),
-        Cut("lip", (0.0, 0.0, 15.7), (0.0, 0.25, 1.0), 4),
-        Cut("body", (0.0, 0.0, 5.6), (0.12, 0.12, 1.0), 7),
+        Cut("neck", (0.0, 0.0, 13.9), (0.3, 0.1, 1.0)),
+        Cut("lip", (0.0, 0.0, 15.7), (0.0, 0.25, 1.0)),
+        Cut("body", (0.0, 0.0, 5.6), (0.12, 0.12, 1.0)),
     ],
-    "groove_cylinder": [Cut("groove", (0.0, 0.0, 0.2), (-0.05, 0.15, 1.0), 14)],
+    "groove_cylinder": [Cut("groove", (0.0, 0.0, 0.2), (-0.05, 0.15, 1.0))],
 }
 
 
 def finger_cut(name):
-    """A loop half way up a finger, tilted; its wide band reaches 3 rings below the base, as in figure 5.2."""
+    """A loop half way up a finger, tilted."""
     _, direction = shapes.finger_axis(name)
     middle = shapes.finger_point(name, 0.5)
     axis, degrees = TILTS[name]
     normal = Matrix.Rotation(radians(degrees), 3, axis) @ direction
-    width = ceil((middle - shapes.finger_point(name, 0.0)).length / shapes.HAND_VOXEL) + 3
-    return Cut(name, tuple(middle), tuple(normal), width)
+    return Cut(name, tuple(middle), tuple(normal), end=tuple(shapes.finger_point(name, 0.0)))
 
 
-def finger_base(name, mesh):
-    """The base of a finger: going down from half way, the last loop right across before the girth grows by 25 %.
-
-    Down to its base a finger's girth grows by less, and it jumps where the cut enters the palm.
-    """
-    _, direction = shapes.finger_axis(name)
-    points = [tuple(shapes.finger_point(name, part)) for part in np.linspace(0.5, 0.0, 34)]
-    loops = [rough_loop(mesh, Cut(name, point, tuple(direction), 1)) for point in points]
-    girths = np.array([girth(mesh, loop) for loop in loops])
-    return loops[int(np.argmax(girths > 1.25 * girths[0])) - 1]
-
-
-def girth(mesh, loop):
-    """Mean distance of a loop's vertices from their centre."""
-    points = mesh.positions[loop]
-    return np.linalg.norm(points - points.mean(axis=0), axis=1).mean()
+def finger_bases(mesh):
+    """Where the fingers' cones leave the palm, by construction: the borders of the faces nearest to each cone."""
+    part = shapes.parts_of_hand(mesh.centres())
+    return {name: border_loop(mesh, part == name, shapes.finger_point(name, 0.0)) for name in TILTS}
 
 
 def groove_bottom():
     """The slanted plane of the groove."""
     slope, height = shapes.GROOVE["slope"], shapes.GROOVE["height"]
-    return Cut("groove", (0.0, 0.0, height), (-slope, 0.0, 1.0), 1)
+    return Cut("groove", (0.0, 0.0, height), (-slope, 0.0, 1.0))
 
 
 def cuts(sample):
@@ -90,7 +78,7 @@ def cuts(sample):
 
 def true_loops(sample, mesh):
     if sample == "hand":
-        return {name: finger_base(name, mesh) for name in TILTS}
+        return finger_bases(mesh)
     return {"groove": rough_loop(mesh, groove_bottom())} if sample == "groove_cylinder" else {}
 
 
@@ -101,7 +89,8 @@ def store_loops(sample, ob):
         loop = rough_loop(mesh, cut)
         selected |= blender_meshes.edge_mask(ob.data, loop)
         blender_meshes.store_loop(ob.data, blender_meshes.ROUGH + cut.name, loop)
-        ob["width." + cut.name] = cut.width
+        if cut.end:
+            ob[blender_meshes.SETTINGS + cut.name] = settings(mesh, cut, loop)
     for name, loop in true_loops(sample, mesh).items():
         blender_meshes.store_loop(ob.data, blender_meshes.TRUE + name, loop)
     blender_meshes.select_edges(ob.data, selected)

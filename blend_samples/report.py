@@ -5,23 +5,25 @@ import csv
 
 COLUMNS = [
     *("sample", "contour", "mesh faces", "band faces", "cut", "nodes", "arcs", "nodes/face", "arcs/node", "passes"),
-    *("status", "ratio before", "ratio after", "ms", "off truth"),
+    *("status", "salience", "ratio before", "ratio after", "ms", "off truth", "settings"),
 ]
 NOTE = (
-    "Band, cut, nodes and arcs are those of the last iteration; ms is the time of the native stages. 'off truth': the "
-    "mean distance to the loop known by construction, in mean edge lengths of the mesh."
+    "Band, cut, nodes and arcs are those of the last iteration; ms is the time of the native stages. Salience says how "
+    "far to trust a result: above 2 nearly always right, below 0.5 seldom. 'off truth': the mean distance to the loop "
+    "known by construction, in mean edge lengths of the mesh. 'settings': what differs from the add-on's defaults."
 )
 
 
-def row(sample, contour, mesh_faces, result, off_truth):
+def row(sample, contour, mesh_faces, settings, result, off_truth):
     """The columns of one contour."""
     counts = result.statistics
     faces, nodes, arcs = counts["faces"], counts["nodes"], counts["arcs"]
     sizes = [mesh_faces, faces, counts["cut"], nodes, arcs, f"{nodes / faces:.2f}", f"{arcs / nodes:.2f}"]
     milliseconds = 1000.0 * sum(counts["seconds"].values())
-    outcome = [result.status, f"{result.initial_ratio:.5g}", f"{result.ratio:.5g}", f"{milliseconds:.1f}"]
+    outcome = [result.status, f"{result.salience:.2f}", f"{result.initial_ratio:.4g}", f"{result.ratio:.4g}"]
     off = "" if off_truth is None else f"{off_truth:.2f}"
-    return [sample, contour, *map(str, sizes), str(counts["passes"]), *outcome, off]
+    differs = ", ".join(f"{name} {value:g}" for name, value in settings.items())
+    return [sample, contour, *map(str, sizes), str(counts["passes"]), *outcome, f"{milliseconds:.1f}", off, differs]
 
 
 def lines(rows):

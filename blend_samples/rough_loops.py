@@ -5,21 +5,29 @@ A plane (a point within the limb and a normal, tilted as a hurried modeler would
 the side on which their centre lies. The edges between faces of different sides are closed, jagged loops; the rough loop
 is the one whose mean vertex is nearest to the plane's point. Where it touches itself at a vertex, the longest part
 between two visits is taken. Nothing else is chosen, and nothing by hand. This module knows NumPy alone.
+
+Every loop is optimized with the add-on's defaults, which trust that it was drawn near the boundary meant. The one
+exception are loops drawn about as far from the part's end as the default reach, or farther: such a cut also names a
+point where the part ends. There, as a modeler would, the width is the way to that point in the loop's mean edge lengths
+and three rings more, without bound (reach 0) and without preference for what is near (anchor 0).
 """
 
 from dataclasses import dataclass
+from math import ceil
 
 import numpy as np
+
+RINGS_BEYOND = 3  # the rings that a far search goes beyond the part's end, as in figure 5.2
 
 
 @dataclass(frozen=True)
 class Cut:
-    """One rough loop to be made: the plane, and the width of the band that its optimisation shall search."""
+    """One rough loop to be made: its plane and, for a loop drawn far along a part, a point where the part ends."""
 
     name: str
     point: tuple
     normal: tuple
-    width: int
+    end: tuple | None = None
 
 
 @dataclass(frozen=True)
@@ -45,10 +53,24 @@ class Polygons:
 def rough_loop(mesh, cut):
     """Vertices, in order, of the closed loop nearest to the cut's plane and point."""
     point, normal = np.asarray(cut.point, float), np.asarray(cut.normal, float)
-    positive = (mesh.centres() - point) @ normal > 0.0
+    return border_loop(mesh, (mesh.centres() - point) @ normal > 0.0, point)
+
+
+def settings(mesh, cut, loop):
+    """What the add-on's operator is given besides its defaults, by the rule above."""
+    if cut.end is None:
+        return {}
+    points = mesh.positions[loop]
+    edge_length = np.linalg.norm(points - np.roll(points, 1, axis=0), axis=1).mean()
+    rings = ceil(np.linalg.norm(np.subtract(cut.end, cut.point)) / edge_length) + RINGS_BEYOND
+    return {"width": rings, "reach": 0.0, "anchor": 0.0}
+
+
+def border_loop(mesh, positive, point):
+    """Of the closed loops between the faces marked and the others, the one nearest to a point."""
     loops = [_longest_simple_part(loop) for loop in _boundary_loops(mesh, positive)]
     if not loops:
-        raise ValueError(f"The plane of '{cut.name}' cuts no closed edge loop out of the mesh.")
+        raise ValueError("No closed edge loop parts these faces from the others.")
     return min(loops, key=lambda loop: np.linalg.norm(mesh.positions[loop].mean(axis=0) - point))
 
 

@@ -3,6 +3,8 @@
 
     blender -b --factory-startup --python-exit-code 1 --python blend_samples/run_samples.py -- --output build/samples
 
+With `--overview blend_samples/pictures/overview.png` it draws the picture of the README instead, and nothing else.
+
 BLENDER_USER_SCRIPTS names the folder whose `addons` holds the add-on with its native module. Every contour goes the way
 of a modeler, through the operator in Edit Mode with output Seam; the numbers are those of the add-on's `api` for the
 same loop. It fails where a contour does: an error, a seam that is not the contour found, or a ratio above the given
@@ -13,6 +15,7 @@ import argparse
 import hashlib
 import json
 import sys
+import tempfile
 import traceback
 from dataclasses import dataclass
 from pathlib import Path
@@ -28,20 +31,27 @@ import blender_meshes  # noqa: E402
 import pictures  # noqa: E402
 import real_meshes  # noqa: E402
 import report  # noqa: E402
-from rough_loops import rough_loop  # noqa: E402
+from rough_loops import rough_loop, settings  # noqa: E402
 
 FOUND = "found_loop."  # a boolean edge attribute for each contour found
 DRAWN_BY = [HERE / name for name in ("pictures.py", "views.py", "captions.py", "images.py")]
+WORDS = ("given: rough loops", "found: part boundaries")
+OVERVIEW = {  # the samples in the README's picture, with what is said of each
+    "hand": ("Five fingers", *WORDS),
+    "bear.off": ("Bear: ear, arm, neck", *WORDS),
+    "armadillo.off": ("Scan: ear, arm, knee, tail", *WORDS),
+    "suzanne": ("Suzanne: ear, muzzle", *WORDS),
+}
 
 
 @dataclass
 class Sample:
-    """A mesh object with its rough loops: name -> vertices in order, and name -> width of the band."""
+    """A mesh object with its rough loops: name -> vertices in order, and name -> settings besides the defaults."""
 
     name: str
     ob: bpy.types.Object
     loops: dict
-    widths: dict
+    settings: dict
     truths: dict
     up: tuple
 
@@ -51,7 +61,12 @@ def made_sample(path):
     ob = bpy.context.view_layer.objects.active
     loops = blender_meshes.stored_loops(ob.data, blender_meshes.ROUGH)
     truths = blender_meshes.stored_loops(ob.data, blender_meshes.TRUE)
-    return Sample(path.stem, ob, loops, {name: ob["width." + name] for name in loops}, truths, (0, 0, 1))
+    return Sample(path.stem, ob, loops, stored_settings(ob, loops), truths, (0, 0, 1))
+
+
+def stored_settings(ob, names):
+    stored = {name: ob.get(blender_meshes.SETTINGS + name) for name in names}
+    return {name: group.to_dict() if group else {} for name, group in stored.items()}
 
 
 def real_sample(name, archive):
@@ -60,10 +75,11 @@ def real_sample(name, archive):
     bpy.context.view_layer.objects.active = ob
     mesh = blender_meshes.polygons(ob.data)
     cuts = real_meshes.cuts(name, mesh)
-    loops = {cut.name: rough_loop(mesh, cut) for cut in cuts}
     for cut in cuts:
-        blender_meshes.store_loop(ob.data, blender_meshes.ROUGH + cut.name, loops[cut.name])
-    return Sample(name, ob, loops, {cut.name: cut.width for cut in cuts}, {}, real_meshes.up(name))
+        blender_meshes.store_loop(ob.data, blender_meshes.ROUGH + cut.name, rough_loop(mesh, cut))
+    loops = blender_meshes.stored_loops(ob.data, blender_meshes.ROUGH)
+    needed = {cut.name: settings(mesh, cut, loops[cut.name]) for cut in cuts}
+    return Sample(name, ob, loops, needed, {}, real_meshes.up(name))
 
 
 def samples(only, output):
@@ -93,7 +109,7 @@ def mark_seam(sample, name, found):
     wanted = blender_meshes.read(mesh.edges, "use_seam", 1, bool) | found
     bpy.context.scene.tool_settings.mesh_select_mode = (False, True, False)
     bpy.ops.object.mode_set(mode="EDIT")
-    done = bpy.ops.mesh.optimize_contour(output="SEAM", keep_old=True, width=sample.widths[name])
+    done = bpy.ops.mesh.optimize_contour(output="SEAM", keep_old=True, **sample.settings[name])
     bpy.ops.object.mode_set(mode="OBJECT")
     if done != {"FINISHED"} or not np.array_equal(blender_meshes.read(mesh.edges, "use_seam", 1, bool), wanted):
         raise RuntimeError(f"the operator answered {done} and did not mark just the contour found")
@@ -101,21 +117,41 @@ def mark_seam(sample, name, found):
 
 def run_contour(sample, name, output, api, mrc):
     """One contour: result, seam, picture. Returns its line of the table."""
-    mesh, loop, width = sample.ob.data, sample.loops[name], sample.widths[name]
-    result = api.optimize_contour(sample.ob, loop, width=width)
-    if result.ratio > result.initial_ratio:
-        raise RuntimeError(f"the ratio rose from {result.initial_ratio} to {result.ratio}")
-    band = mrc.band(api.surface_of(sample.ob), loop, options=mrc.Options(width=width))
-    found = blender_meshes.edge_mask(mesh, result.vertices)
-    mark_seam(sample, name, found)
-    blender_meshes.store_loop(mesh, FOUND + name, result.vertices)
-    title = f"{sample.name}: {name.replace('_', ' ')}"
-    before = f"given loop: ratio {result.initial_ratio:.4g}"
-    after = f"contour found: ratio {result.ratio:.4g}, {result.status}"
-    shown = (loop, list(result.vertices), sample.truths.get(name), band)
-    comparison = pictures.Comparison(*shown, title, before, after)
+    mesh, loop = sample.ob.data, sample.loops[name]
+    result = api.optimize_contour(sample.ob, loop, **sample.settings[name])
+    if result.objective > result.initial_objective:
+        raise RuntimeError(f"the objective rose from {result.initial_objective} to {result.objective}")
+    found = list(result.vertices)
+    mark_seam(sample, name, blender_meshes.edge_mask(mesh, found))
+    blender_meshes.store_loop(mesh, FOUND + name, found)
+    words = (
+        f"{sample.name}: {name.replace('_', ' ')}",
+        f"given loop: ratio {result.initial_ratio:.3g}",
+        outcome(result),
+    )
+    truths = [sample.truths[name]] if name in sample.truths else []
+    comparison = pictures.Comparison(*words, [loop], [found], searched(sample, name, api, mrc), truths)
     draw_if_changed(output / "pictures" / f"{sample.name}.{name}.png", sample, comparison)
-    return report.row(sample.name, name, len(mesh.polygons), result, off_truth(sample, name, result.vertices))
+    return report.row(
+        sample.name, name, len(mesh.polygons), sample.settings[name], result, off_truth(sample, name, found)
+    )
+
+
+def outcome(result):
+    """A line of words for the picture."""
+    if result.status == "unchanged":
+        return f"left as it is: nothing clear to find (salience {result.salience:.2g})"
+    return f"contour found: ratio {result.ratio:.3g}, salience {result.salience:.2g}"
+
+
+def searched(sample, name, api, mrc):
+    """The faces of the bands of all iterations, each grown from the contour that the one before found."""
+    surface, faces, loop = api.surface_of(sample.ob), [], sample.loops[name]
+    options = api.parameters.native_options(**sample.settings[name])
+    for done in range(1, options["iterations"] + 1):
+        faces.append(mrc.band(surface, loop, options=mrc.Options(**options)))
+        loop = api.optimize_on(surface, sample.loops[name], **sample.settings[name], iterations=done).vertices
+    return np.unique(np.concatenate(faces))
 
 
 def off_truth(sample, name, found):
@@ -132,8 +168,8 @@ def draw_if_changed(path, sample, comparison):
     """Draws a picture unless it is there and was made of the same mesh, contours and words by the same code."""
     mesh = blender_meshes.polygons(sample.ob.data)
     digest = hashlib.sha256()
-    loops = (comparison.given, comparison.found, comparison.truth or [])
-    for array in (mesh.positions, mesh.vertices, *loops, comparison.band):
+    loops = comparison.given + comparison.found + comparison.truths
+    for array in (mesh.positions, mesh.vertices, *loops, comparison.searched):
         digest.update(np.ascontiguousarray(array).tobytes())
     words = [comparison.title, comparison.before, comparison.after, *(file.read_text() for file in DRAWN_BY)]
     digest.update(json.dumps(words).encode())
@@ -169,11 +205,39 @@ def run(output, only):
     return rows, failures
 
 
+def draw_overview(path):
+    """The picture of the README: all loops of a few samples, before and after."""
+    api, mrc = enable_addon()
+    pairs = []
+    with tempfile.TemporaryDirectory() as folder:
+        for name, words in OVERVIEW.items():
+            for sample in samples(name, Path(folder)):
+                enable_addon()
+                pairs.append(overview_pair(sample, words, api, mrc))
+    path.parent.mkdir(parents=True, exist_ok=True)
+    pictures.draw_overview(path, pairs)
+    print(f"{path}: {path.stat().st_size // 1024} KiB")
+
+
+def overview_pair(sample, words, api, mrc):
+    """All loops of a sample in one small picture."""
+    given = list(sample.loops.values())
+    found = [
+        list(api.optimize_contour(sample.ob, sample.loops[n], **sample.settings[n]).vertices) for n in sample.loops
+    ]
+    faces = np.unique(np.concatenate([searched(sample, name, api, mrc) for name in sample.loops]))
+    return pictures.overview_pair(sample.ob, sample.up, pictures.Comparison(*words, given, found, faces))
+
+
 def main():
     parser = argparse.ArgumentParser(prog="run_samples.py")
-    parser.add_argument("--output", type=Path, required=True, help="folder for .blend files, pictures and the table")
+    task = parser.add_mutually_exclusive_group(required=True)
+    task.add_argument("--output", type=Path, help="folder for .blend files, pictures and the table")
+    task.add_argument("--overview", type=Path, metavar="PATH", help="draw just the picture of the README")
     parser.add_argument("--only", metavar="NAME", help="just this sample")
     arguments = parser.parse_args(sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else [])
+    if arguments.overview:
+        return draw_overview(arguments.overview.resolve())
     output = arguments.output.resolve()
     output.mkdir(parents=True, exist_ok=True)
     rows, failures = run(output, arguments.only)

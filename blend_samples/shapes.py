@@ -11,6 +11,7 @@ import bmesh
 import bpy
 import numpy as np
 from mathutils import Matrix, Vector
+from mathutils.bvhtree import BVHTree
 
 # name: base on the hand's outline (x, z), angle of the axis to the vertical, length, radius at the base and at the tip
 FINGERS = {
@@ -49,6 +50,32 @@ def hand():
     wrist = _scaled((0, 0, -1.6), (1.15, 0.72, 1))
     bmesh.ops.create_cone(bm, cap_ends=True, segments=48, radius1=2.1, radius2=2.1, depth=5.0, matrix=wrist)
     return _remeshed(_object("hand", bm), voxel=HAND_VOXEL, smoothing=6)
+
+
+def parts_of_hand(points):
+    """For each point "palm" or the name of a finger: that whose surface is nearest, from within or without."""
+    hull = bmesh.new()
+    _add_palm(hull)
+    palm = BVHTree.FromBMesh(hull)
+    hull.free()
+    distances = {"palm": np.array([_signed_distance(palm, Vector(point)) for point in points])}
+    distances |= {name: _finger_distance(name, points) for name in FINGERS}
+    return np.array(list(distances))[np.argmin(np.stack(list(distances.values())), axis=0)]
+
+
+def _signed_distance(tree, point):
+    nearest, normal, _, distance = tree.find_nearest(point)
+    return distance if (point - nearest).dot(normal) > 0.0 else -distance
+
+
+def _finger_distance(name, points):
+    """Signed distance to a cone with a round tip; the slant of its side, 3 degrees, is left out."""
+    base, axis = (np.array(vector) for vector in finger_axis(name))
+    length, base_radius, tip_radius = FINGERS[name][2:]
+    straight = length - tip_radius
+    along = np.clip((points - base) @ axis, 0.0, straight)
+    radius = base_radius + along / straight * (tip_radius - base_radius)
+    return np.linalg.norm(points - base - along[:, None] * axis, axis=1) - radius
 
 
 def _add_finger(bm, name):

@@ -21,16 +21,17 @@ class View:
     depth: float
 
 
-def best_view(mesh, curves, band_points, up):
-    """Looks along the best direction at a frame that holds the band and some of what is around it."""
+def best_view(mesh, curves, up, margin):
+    """Looks along the best direction at a frame `margin` times as wide as the curves."""
     mesh.calc_loop_triangles()
     positions = blender_meshes.read(mesh.vertices, "co", 3, np.float64)
     direction = _best_direction(mesh, positions, curves, np.asarray(up, float))
     right, top = _frame(direction, up)
     flat = np.stack([right, top], axis=1)
-    low, high = (band_points @ flat).min(axis=0), (band_points @ flat).max(axis=0)
+    shown = np.concatenate([points for points, _ in curves]) @ flat
+    low, high = shown.min(axis=0), shown.max(axis=0)
     whole = np.ptp(positions @ flat, axis=0).max()
-    width = min(max(1.55 * (high - low).max(), 0.32 * whole), 1.1 * whole)
+    width = min(max(margin * (high - low).max(), 0.2 * whole), 1.1 * whole)
     near, far = (positions @ direction).max(), (positions @ direction).min()
     matrix = Matrix(np.stack([right, top, direction], axis=1).tolist()).to_4x4()
     matrix.translation = Vector((low + high) / 2 @ flat.T + (near + width) * direction)

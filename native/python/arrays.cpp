@@ -54,7 +54,8 @@ void require_shape(const py::array& array, py::ssize_t columns, const char* name
 
 Integers to_array(std::span<const int> values, py::ssize_t columns) {
     const auto size = static_cast<py::ssize_t>(values.size());
-    Integers array = columns == 0 ? Integers(std::vector<py::ssize_t>{size}) : Integers(std::vector<py::ssize_t>{size / columns, columns});
+    Integers array =
+        columns == 0 ? Integers(std::vector<py::ssize_t>{size}) : Integers(std::vector<py::ssize_t>{size / columns, columns});
     std::ranges::copy(values, array.mutable_data());
     return array;
 }

@@ -7,6 +7,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <array>
 
 namespace mrc_python {
 namespace {
@@ -15,18 +16,79 @@ using mrc::Options;
 using mrc::Scales;
 using mrc::Surface;
 
-/// A contour from vertex ids, or from an earlier result.
-mrc::Contour to_contour(const py::object& vertices, bool closed) {
+/// A contour from vertex ids or points on edges, or from an earlier result.
+mrc::Contour to_contour(const py::object& vertices, bool closed, const py::object& edge_vertices,
+                        const py::object& edge_parameters) {
+    if (vertices.is_none() == edge_vertices.is_none())
+        throw py::value_error("give either vertices, or edge_vertices with edge_parameters");
     if (py::isinstance<PyResult>(vertices)) return vertices.cast<const PyResult&>().result.contour;
-    const Integers ids = integers(vertices, "vertices");
-    require_shape(ids, 0, "vertices");
-    if (!closed) throw py::value_error("closed=False: only closed contours can be optimised");
-    return mrc::vertex_contour(view(ids), closed);
+    if (!vertices.is_none()) {
+        const Integers ids = integers(vertices, "vertices");
+        require_shape(ids, 0, "vertices");
+        return mrc::vertex_contour(view(ids), closed);
+    }
+    const Integers ends = integers(edge_vertices, "edge_vertices");
+    require_shape(ends, 2, "edge_vertices");
+    const Doubles parameters = doubles(edge_parameters, "edge_parameters");
+    require_shape(parameters, 0, "edge_parameters");
+    if (parameters.size() != ends.shape(0)) {
+        throw py::value_error("edge_parameters has " + std::to_string(parameters.size()) + " entries for " +
+                              std::to_string(ends.shape(0)) + " edge_vertices");
+    }
+    mrc::Contour contour{{}, closed};
+    for (py::ssize_t i = 0; i < ends.shape(0); ++i) contour.points.push_back({ends.at(i, 0), ends.at(i, 1), parameters.at(i)});
+    return contour;
 }
 
-PyResult optimize(const Surface& surface, const py::object& vertices, bool closed, const Options& options, const Scales* scales,
-                  const py::object& progress) {
-    const mrc::Contour contour = to_contour(vertices, closed);
+std::vector<std::array<int, 2>> edge_pairs(const py::object& edges, const char* name) {
+    const Integers pairs = integers(edges, name);
+    if (pairs.size() == 0) return {};
+    require_shape(pairs, 2, name);
+    std::vector<std::array<int, 2>> result;
+    for (py::ssize_t i = 0; i < pairs.shape(0); ++i) result.push_back({pairs.at(i, 0), pairs.at(i, 1)});
+    return result;
+}
+
+std::vector<mrc::Attractor> to_attractors(const py::iterable& attractors) {
+    std::vector<mrc::Attractor> result;
+    for (const py::handle item : attractors) {
+        const auto fields = py::reinterpret_borrow<py::object>(item).cast<py::sequence>();
+        if (fields.size() != 3 && fields.size() != 4) {
+            throw py::value_error("an attractor is (vertex, radius, strength) or (vertex, radius, strength, sigma)");
+        }
+        mrc::Attractor a{fields[0].cast<int>(), fields[1].cast<double>(), fields[2].cast<double>(), std::nullopt};
+        if (fields.size() == 4) a.sigma = fields[3].cast<double>();
+        result.push_back(a);
+    }
+    return result;
+}
+
+std::vector<double> to_density(const py::object& density) {
+    if (density.is_none()) return {};
+    const Doubles values = doubles(density, "region_density");
+    require_shape(values, 0, "region_density");
+    return {values.data(), values.data() + values.size()};
+}
+
+mrc::Wishes to_wishes(const py::object& required_vertices, const py::object& required_edges, const py::iterable& attractors,
+                      const py::object& barriers, const py::object& region_density) {
+    mrc::Wishes wishes;
+    const Integers vertices = integers(required_vertices, "required_vertices");
+    if (vertices.size() > 0) require_shape(vertices, 0, "required_vertices");
+    wishes.required_vertices.assign(vertices.data(), vertices.data() + vertices.size());
+    wishes.required_edges = edge_pairs(required_edges, "required_edges");
+    wishes.attractors = to_attractors(attractors);
+    wishes.barriers = edge_pairs(barriers, "barriers");
+    wishes.region_density = to_density(region_density);
+    return wishes;
+}
+
+PyResult optimize(const Surface& surface, const py::object& vertices, bool closed, const Options& options,
+                  const py::object& required_vertices, const py::object& required_edges, const py::iterable& attractors,
+                  const py::object& barriers, const py::object& region_density, const Scales* scales, const py::object& progress,
+                  const py::object& edge_vertices, const py::object& edge_parameters) {
+    const mrc::Contour contour = to_contour(vertices, closed, edge_vertices, edge_parameters);
+    const mrc::Wishes wishes = to_wishes(required_vertices, required_edges, attractors, barriers, region_density);
     mrc::Progress report;
     if (!progress.is_none()) {
         report = [&progress](double share) {
@@ -36,13 +98,18 @@ PyResult optimize(const Surface& surface, const py::object& vertices, bool close
         };
     }
     const py::gil_scoped_release release;
-    return describe(surface, mrc::optimize(surface, contour, options, scales, report));
+    return describe(surface, mrc::optimize(surface, contour, options, wishes, scales, report));
 }
 
-mrc::Measure measure(const Surface& surface, const py::object& vertices, bool closed, const Options& options, const Scales* scales) {
-    const mrc::Contour contour = to_contour(vertices, closed);
+mrc::Measure measure(const Surface& surface, const py::object& vertices, bool closed, const Options& options,
+                     const py::iterable& attractors, const py::object& region_density, const Scales* scales,
+                     const py::object& edge_vertices, const py::object& edge_parameters) {
+    const mrc::Contour contour = to_contour(vertices, closed, edge_vertices, edge_parameters);
+    mrc::Wishes wishes;
+    wishes.attractors = to_attractors(attractors);
+    wishes.region_density = to_density(region_density);
     const py::gil_scoped_release release;
-    return mrc::measure(surface, contour, options, scales);
+    return mrc::measure(surface, contour, options, wishes, scales);
 }
 
 struct PyCurvature {
@@ -64,12 +131,6 @@ PyCurvature curvature(const Surface& surface, const Options& options, const Scal
             rows_of_three(values, [](const auto& c) { return c.direction_max; })};
 }
 
-mrc::SearchSpace make_space(const Surface& surface, const py::object& vertices, bool closed, const Options& options) {
-    const mrc::Contour contour = to_contour(vertices, closed);
-    const py::gil_scoped_release release;
-    return mrc::search_space(surface, contour, options);
-}
-
 Integers band_faces(const mrc::SearchSpace& space) {
     std::vector<int> faces;
     for (const int polygon : space.band.polygons) faces.push_back(space.patch.polygon_face[polygon]);
@@ -77,13 +138,14 @@ Integers band_faces(const mrc::SearchSpace& space) {
     return to_array(faces);
 }
 
-Integers band(const Surface& surface, const py::object& vertices, bool closed, const Options& options) {
-    const mrc::Contour contour = to_contour(vertices, closed);
+Integers band(const Surface& surface, const py::object& vertices, bool closed, const Options& options,
+              const py::object& edge_vertices, const py::object& edge_parameters) {
+    const mrc::Contour contour = to_contour(vertices, closed, edge_vertices, edge_parameters);
     mrc::SearchSpace space;
     {
         const py::gil_scoped_release release;
-        space.patch = mrc::make_patch(surface, contour, options.width);
-        space.band = mrc::grow_band(space.patch, options);
+        space.patch = mrc::make_patch(surface, mrc::checked_contour(surface, contour), options.width);
+        space.band = mrc::grow_band(surface, space.patch, options);
     }
     return band_faces(space);
 }
@@ -139,12 +201,22 @@ void describe_flow(py::dict& d, const mrc::SearchSpace& space) {
     d["diagonal"] = to_array(diagonal).attr("astype")("bool");
 }
 
+/// Nodes are pairs of vertices in the regular graph, of points in a refined one.
 void describe_graph(py::dict& d, const mrc::ContourGraph& graph) {
+    const bool refined = std::ranges::any_of(graph.points, [](const auto& p) { return !p.place.is_vertex(); });
     std::vector<int> nodes, arcs, cut;
     for (const auto& chord : graph.chords) {
-        nodes.push_back(graph.points[chord.tail].place.a);
-        nodes.push_back(graph.points[chord.head].place.a);
+        nodes.push_back(refined ? chord.tail : graph.points[chord.tail].place.a);
+        nodes.push_back(refined ? chord.head : graph.points[chord.head].place.a);
     }
+    std::vector<int> points;
+    std::vector<double> parameters;
+    for (const auto& point : graph.points) {
+        points.insert(points.end(), {point.place.a, point.place.b});
+        parameters.push_back(point.place.t);
+    }
+    d["points"] = to_array(points, 2);
+    d["parameters"] = to_array(parameters);
     const mrc::WeightedGraph& search = graph.search;
     for (int n = 0; n < search.node_count(); ++n) {
         for (int a = search.first_arc[n]; a < search.first_arc[n + 1]; ++a) {
@@ -161,8 +233,14 @@ void describe_graph(py::dict& d, const mrc::ContourGraph& graph) {
     d["level"] = graph.level;
 }
 
-py::dict search_space(const Surface& surface, const py::object& vertices, bool closed, const Options& options) {
-    const mrc::SearchSpace space = make_space(surface, vertices, closed, options);
+py::dict search_space(const Surface& surface, const py::object& vertices, bool closed, const Options& options,
+                      const py::object& edge_vertices, const py::object& edge_parameters) {
+    const mrc::Contour contour = to_contour(vertices, closed, edge_vertices, edge_parameters);
+    mrc::SearchSpace space;
+    {
+        const py::gil_scoped_release release;
+        space = mrc::search_space(surface, contour, options);
+    }
     py::dict d;
     describe_band(d, space);
     describe_flow(d, space);
@@ -179,24 +257,40 @@ void bind_functions(py::module_& module) {
         .def_readonly("kappa_max", &PyCurvature::kappa_max, "(V,) float64.")
         .def_readonly("direction_min", &PyCurvature::direction_min, "(V, 3) float64, unit tangents; they run along ridges.")
         .def_readonly("direction_max", &PyCurvature::direction_max, "(V, 3) float64, unit tangents; they run along valleys.");
-    module.def("optimize", &optimize, py::arg("surface"), py::arg("vertices"), py::arg("closed") = true, py::arg("options") = defaults,
-               py::arg("scales") = py::none(), py::arg("progress") = py::none(),
-               "Moves a contour to the one of least ratio in a band around it.\n\n"
-               "vertices: (N,) ids in order along real edges, the first not repeated; or an earlier Result.\n"
-               "scales: those of an earlier result, to go on from it.\n"
-               "progress: called with the share done, from 0 to 1; returning False cancels, an exception passes through.\n"
-               "Returns a Result. Raises ValueError naming the elements where the contour is no simple loop inside the mesh.");
-    module.def("measure", &measure, py::arg("surface"), py::arg("vertices"), py::arg("closed") = true, py::arg("options") = defaults,
-               py::arg("scales") = py::none(), "The ratio of a contour, without optimising (eq. 3.3).");
+    const py::tuple nothing;
+    module.def(
+        "optimize", &optimize, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true,
+        py::arg("options") = defaults, py::arg("required_vertices") = nothing, py::arg("required_edges") = nothing,
+        py::arg("attractors") = nothing, py::arg("barriers") = nothing, py::arg("region_density") = py::none(),
+        py::arg("scales") = py::none(), py::arg("progress") = py::none(), py::arg("edge_vertices") = py::none(),
+        py::arg("edge_parameters") = py::none(),
+        "Moves a contour to the one of least ratio in a band around it.\n\n"
+        "vertices: (N,) ids in order along real edges; a closed contour does not repeat its first; or an earlier Result.\n"
+        "edge_vertices, edge_parameters: (N, 2) and (N,), a contour across faces: point i lies at (1 - t) a + t b.\n"
+        "required_vertices, required_edges: ids and (n, 2) vertex pairs that the contour must hold (4.4).\n"
+        "attractors: (vertex, radius, strength) or (vertex, radius, strength, sigma), soft constraints (4.5).\n"
+        "barriers: (n, 2) vertex pairs, edges that no contour crosses.\n"
+        "region_density: (F,) float64 per area, closed contours: with the option region_weight its change on the side region_side\n"
+        "weighs (6.1.2).\n"
+        "scales: those of an earlier result, to go on from it.\n"
+        "progress: called with the share done, from 0 to 1; returning False cancels, an exception passes through.\n"
+        "Returns a Result. Raises ValueError naming the elements where the contour is not simple or not inside the mesh, and\n"
+        "Infeasible, a ValueError, where no contour of the band has all required elements.");
+    module.def("measure", &measure, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true,
+               py::arg("options") = defaults, py::arg("attractors") = nothing, py::arg("region_density") = py::none(),
+               py::arg("scales") = py::none(), py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
+               "The ratio of a contour, without optimising (eq. 3.3).");
     module.def("curvature", &curvature, py::arg("surface"), py::arg("options") = defaults, py::arg("scales") = py::none(),
                "The curvatures at all vertices; without scales, h is the surface's mean edge length.");
-    module.def("band", &band, py::arg("surface"), py::arg("vertices"), py::arg("closed") = true, py::arg("options") = defaults,
+    module.def("band", &band, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true,
+               py::arg("options") = defaults, py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
                "(n,) int32: the faces that optimize searches first, ascending.");
-    module.def("search_space", &search_space, py::arg("surface"), py::arg("vertices"), py::arg("closed") = true,
-               py::arg("options") = defaults,
+    module.def("search_space", &search_space, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true,
+               py::arg("options") = defaults, py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
                "All that optimize builds before it searches, as a dict of arrays: for display and tests.\n\n"
                "faces, vertices, side, round, left, right, strips, triangles: the band. edges, increments, diagonal: the flow.\n"
-               "nodes, arcs, f, g, cut, level: the graph, nodes in topological order.");
+               "points, parameters, nodes, arcs, f, g, cut, level: the graph, nodes as pairs of vertices (refined: of points) in "
+               "topological order.");
 }
 
 }  // namespace mrc_python

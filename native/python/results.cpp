@@ -16,9 +16,14 @@ using mrc::Scales;
 
 const char* status_name(mrc::Status status) {
     switch (status) {
-        case mrc::Status::improved: return "improved";
-        case mrc::Status::unchanged: return "unchanged";
-        case mrc::Status::cancelled: return "cancelled";
+        case mrc::Status::improved:
+            return "improved";
+        case mrc::Status::unchanged:
+            return "unchanged";
+        case mrc::Status::constrained:
+            return "constrained";
+        case mrc::Status::cancelled:
+            return "cancelled";
     }
     return "";
 }
@@ -55,8 +60,14 @@ void bind_scales(py::module_& module) {
         .def_readonly("K", &Scales::K, "Area-weighted mean of |kappa_min| there, at least 0.01 / L0.")
         .def_readonly("kappa_0", &Scales::kappa_0, "The constant of eq. 3.2.")
         .def_readonly("L0", &Scales::L0, "Length of the contour.")
+        .def_readonly("clamp", &Scales::clamp, "Where the size of feature curvatures is cut off; infinity: nowhere.")
         .def_readonly("n0", &Scales::n0, "Its number of arcs.")
-        .def_property_readonly("given", [](const Scales& s) { return contour_vertices(s.given); }, "The contour's vertices, int32.");
+        .def_property_readonly(
+            "given", [](const Scales& s) { return contour_vertices(s.given); }, "The contour's vertices, int32.")
+        .def_property_readonly(
+            "given_edge_vertices", [](const Scales& s) { return edge_vertices(s.given); }, "(N, 2) int32.")
+        .def_property_readonly(
+            "given_edge_parameters", [](const Scales& s) { return edge_parameters(s.given); }, "(N,) float64.");
 }
 
 void bind_measure(py::module_& module) {
@@ -92,8 +103,8 @@ void bind_results(py::module_& module) {
     bind_scales(module);
     bind_measure(module);
     py::class_<PyResult>(module, "Result", "What optimize found. Ratios are in one over the mesh's unit of length.")
-        .def_property_readonly("status", [](const PyResult& r) { return status_name(r.result.status); },
-                               "'improved', 'unchanged' or 'cancelled'.")
+        .def_property_readonly(
+            "status", [](const PyResult& r) { return status_name(r.result.status); }, "'improved', 'unchanged' or 'cancelled'.")
         .def_property_readonly("reason", field(&mrc::Result::reason), "Why the given contour is returned, in words.")
         .def_property_readonly("ratio", field(&mrc::Result::ratio))
         .def_property_readonly("initial_ratio", field(&mrc::Result::initial_ratio))
@@ -108,20 +119,24 @@ void bind_results(py::module_& module) {
         .def_property_readonly("scales", field(&mrc::Result::scales))
         .def_property_readonly("statistics", &statistics)
         .def_property_readonly("closed", [](const PyResult& r) { return r.result.contour.closed; })
-        .def_property_readonly("vertices", [](const PyResult& r) { return contour_vertices(r.result.contour); },
-                               "(N,) int32: vertex ids in order, in the given direction.")
-        .def_property_readonly("edge_vertices", [](const PyResult& r) { return edge_vertices(r.result.contour); },
-                               "(N, 2) int32: point i lies at (1 - t) a + t b on the edge ab; a vertex is (v, v) with t = 0.")
-        .def_property_readonly("edge_parameters", [](const PyResult& r) { return edge_parameters(r.result.contour); },
-                               "(N,) float64: t of each point.")
-        .def_property_readonly("positions",
-                               [](const PyResult& r) { return rows_of_three(r.positions, [](const mrc::Vec3& p) { return p; }); },
-                               "(N, 3) float64.")
-        .def_property_readonly("segment_faces", [](const PyResult& r) { return to_array(r.segment_faces); },
-                               "(N,) int32: a face that holds the segment from each point to the next; along an edge the left one.")
+        .def_property_readonly(
+            "vertices", [](const PyResult& r) { return contour_vertices(r.result.contour); },
+            "(N,) int32: vertex ids in order, in the given direction.")
+        .def_property_readonly(
+            "edge_vertices", [](const PyResult& r) { return edge_vertices(r.result.contour); },
+            "(N, 2) int32: point i lies at (1 - t) a + t b on the edge ab; a vertex is (v, v) with t = 0.")
+        .def_property_readonly(
+            "edge_parameters", [](const PyResult& r) { return edge_parameters(r.result.contour); },
+            "(N,) float64: t of each point.")
+        .def_property_readonly(
+            "positions", [](const PyResult& r) { return rows_of_three(r.positions, [](const mrc::Vec3& p) { return p; }); },
+            "(N, 3) float64.")
+        .def_property_readonly(
+            "segment_faces", [](const PyResult& r) { return to_array(r.segment_faces); },
+            "(N,) int32: a face that holds the segment from each point to the next; along an edge the left one.")
         .def("__repr__", [](const PyResult& r) {
-            return std::string("<mrcontour.Result: ") + status_name(r.result.status) + ", ratio " + std::to_string(r.result.initial_ratio) +
-                   " -> " + std::to_string(r.result.ratio) + ">";
+            return std::string("<mrcontour.Result: ") + status_name(r.result.status) + ", ratio " +
+                   std::to_string(r.result.initial_ratio) + " -> " + std::to_string(r.result.ratio) + ">";
         });
 }
 

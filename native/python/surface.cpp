@@ -19,8 +19,9 @@ Integers face_ids(const py::object& faces) {
     return integers(faces, "hidden_faces");
 }
 
-std::unique_ptr<mrc::Surface> make_surface(const py::object& positions, const py::object& face_offsets, const py::object& face_vertices,
-                                           const py::object& triangles, const py::object& hidden_faces) {
+std::unique_ptr<mrc::Surface> make_surface(const py::object& positions, const py::object& face_offsets,
+                                           const py::object& face_vertices, const py::object& triangles,
+                                           const py::object& hidden_faces) {
     const Doubles points = doubles(positions, "positions");
     require_shape(points, 3, "positions");
     const Integers corners = integers(face_vertices, "face_vertices");
@@ -65,7 +66,8 @@ void bind_surface(py::module_& module) {
         .def_property_readonly("face_count", &mrc::Surface::face_count)
         .def_property_readonly("edge_count", &mrc::Surface::edge_count, "Real edges and diagonals.")
         .def("__repr__", [](const mrc::Surface& s) {
-            return "<mrcontour.Surface: " + std::to_string(s.vertex_count()) + " vertices, " + std::to_string(s.face_count()) + " faces>";
+            return "<mrcontour.Surface: " + std::to_string(s.vertex_count()) + " vertices, " + std::to_string(s.face_count()) +
+                   " faces>";
         });
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <queue>
 #include <tuple>
+#include <unordered_map>
 
 namespace mrc {
 namespace {
@@ -49,7 +50,8 @@ class PolygonSides {
 
 class Grower {
   public:
-    explicit Grower(const Patch& patch) : patch_(patch), mesh_(patch.mesh), sides_(patch) {
+    Grower(const Patch& patch, double farthest, const Wishes& wishes)
+        : patch_(patch), mesh_(patch.mesh), sides_(patch), farthest_(farthest) {
         band_.face.assign(mesh_.n_faces(), 0);
         band_.side.assign(mesh_.n_vertices(), Side::outside);
         band_.round.assign(mesh_.n_vertices(), -1);
@@ -57,7 +59,8 @@ class Grower {
         polygon_in_.assign(patch.polygon_count(), 0);
         order_polygons();
         for (const int v : patch.contour) admit(v, Side::contour, 0);
-        for (std::size_t i = 0; i < patch.contour.size(); ++i) {
+        mark_barriers(wishes);
+        for (std::size_t i = 0; i < chain_length(); ++i) {
             const Halfedge h = contour_halfedge(i);
             front_[h.idx()] = Side::left;
             front_[mesh_.opposite_halfedge_handle(h).idx()] = Side::right;
@@ -73,6 +76,7 @@ class Grower {
             band_.left.push_back(boundary(Side::left, band_.left.back()));
             band_.right.push_back(boundary(Side::right, band_.right.back()));
         }
+        if (!patch_.closed) close_ends();
         mark_edges();
         return std::move(band_);
     }
@@ -81,15 +85,35 @@ class Grower {
     struct Chain {
         int first = -1, length = 0;  // in the polygon's sides
         Side side = Side::outside;
+        bool mixed = false;  // has edges of both sides' fronts
     };
 
     const Patch& patch_;
     const PatchMesh& mesh_;
     PolygonSides sides_;
+    double farthest_;  // how far from the contour the third and later rounds may reach
     Band band_;
-    std::vector<Side> front_;  // half-edges of outer polygons whose other side is in the band
+    std::vector<Side> front_;    // half-edges of outer polygons whose other side is in the band
+    std::vector<char> barrier_;  // of each patch edge
     std::vector<char> polygon_in_;
-    std::vector<int> rank_;    // of each polygon in the order of distance
+    std::vector<int> rank_;        // of each polygon in the order of distance
+    std::vector<int> candidates_;  // polygons that might enter in the last round
+
+    std::size_t chain_length() const { return patch_.contour.size() - (patch_.closed ? 0 : 1); }
+    bool is_front(int h) const { return front_[h] != Side::outside && !barrier_[h / 2]; }
+
+    void mark_barriers(const Wishes& wishes) {
+        barrier_.assign(mesh_.n_edges(), 0);
+        if (wishes.barriers.empty()) return;
+        std::unordered_map<int, int> local;
+        for (std::size_t v = 0; v < patch_.vertex.size(); ++v) local.emplace(patch_.vertex[v], static_cast<int>(v));
+        for (const auto& [a, b] : wishes.barriers) {
+            const auto p = local.find(a), q = local.find(b);
+            if (p == local.end() || q == local.end()) continue;
+            const auto h = mesh_.find_halfedge(PatchMesh::VertexHandle(p->second), PatchMesh::VertexHandle(q->second));
+            if (h.is_valid()) barrier_[h.idx() / 2] = 1;
+        }
+    }
 
     Halfedge contour_halfedge(std::size_t i) const {
         const int a = patch_.contour[i], b = patch_.contour[(i + 1) % patch_.contour.size()];
@@ -112,7 +136,7 @@ class Grower {
     /// Polygons compete in the order of distance, rounded so that equal ones stay equal under rounding; then of position.
     void order_polygons() {
         double length = 0.0;
-        for (std::size_t i = 0; i < patch_.contour.size(); ++i) length += mesh_.calc_edge_length(contour_halfedge(i));
+        for (std::size_t i = 0; i < chain_length(); ++i) length += mesh_.calc_edge_length(contour_halfedge(i));
         using Key = std::tuple<double, double, double, double, int>;
         std::vector<Key> keys;
         for (int p = 0; p < patch_.polygon_count(); ++p) {
@@ -139,18 +163,16 @@ class Grower {
         int fronts = 0, vertices = 0;
         for (int i = 0; i < count; ++i) {
             vertices += inside(from(sides[i]));
-            if (front_[sides[i]] == Side::outside) continue;
+            if (!is_front(sides[i])) continue;
             ++fronts;
-            const bool starts = front_[sides[(i + count - 1) % count]] == Side::outside;
+            const bool starts = !is_front(sides[(i + count - 1) % count]);
             if (!starts) continue;
             if (chain.first >= 0) return {};
-            chain = {i, 0, front_[sides[i]]};
+            chain = {i, 0, front_[sides[i]], false};
         }
         // The chain's own vertices and no others are in the band: so it stays an annulus, and both sides apart.
         if (chain.first < 0 || fronts == count || vertices != fronts + 1) return {};
-        for (int i = 0; i < fronts; ++i) {
-            if (front_[sides[(chain.first + i) % count]] != chain.side) return {};
-        }
+        for (int i = 0; i < fronts; ++i) chain.mixed |= front_[sides[(chain.first + i) % count]] != chain.side;
         chain.length = fronts;
         return chain;
     }
@@ -172,8 +194,12 @@ class Grower {
         for (int f = patch_.first_face[polygon]; f < patch_.first_face[polygon + 1]; ++f) band_.face[f] = 1;
     }
 
-    /// The polygons outside that share a vertex with the boundaries of the round before.
-    std::vector<int> candidates() const {
+    bool too_far(int polygon) const {
+        return std::ranges::any_of(sides_[polygon], [&](int h) { return patch_.distance[from(h)] > farthest_; });
+    }
+
+    /// The polygons outside that share a vertex with the boundaries of the round before, and are not too far.
+    std::vector<int> candidates(int round) const {
         std::vector<int> found;
         for (const auto* curve : {&band_.left.back(), &band_.right.back()}) {
             for (const int v : *curve) {
@@ -185,6 +211,7 @@ class Grower {
         }
         std::ranges::sort(found);
         found.erase(std::ranges::unique(found).begin(), found.end());
+        if (round > 2) std::erase_if(found, [&](int polygon) { return too_far(polygon); });
         return found;
     }
 
@@ -193,7 +220,8 @@ class Grower {
         std::vector<char> eligible(patch_.polygon_count(), 0);
         using Entry = std::pair<int, int>;  // rank, polygon
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-        for (const int polygon : candidates()) {
+        candidates_ = candidates(round);
+        for (const int polygon : candidates_) {
             eligible[polygon] = 1;
             queue.emplace(rank_[polygon], polygon);
         }
@@ -203,7 +231,7 @@ class Grower {
             queue.pop();
             if (polygon_in_[polygon]) continue;
             const Chain chain = meeting(polygon);
-            if (chain.length == 0) continue;
+            if (chain.length == 0 || chain.mixed) continue;
             enter(polygon, chain, round);
             grown = true;
             for (const int h : sides_[polygon]) {
@@ -214,16 +242,42 @@ class Grower {
         return grown;
     }
 
+    /// While the sides of an open curve grow they stay apart, so that each boundary runs from end to end. Now the last round's
+    /// polygons that lie between the two close the gaps beyond the ends.
+    void close_ends() {
+        std::ranges::sort(candidates_, {}, [&](int polygon) { return rank_[polygon]; });
+        for (bool grown = true; grown;) {
+            grown = false;
+            for (const int polygon : candidates_) {
+                if (polygon_in_[polygon]) continue;
+                const Chain chain = meeting(polygon);
+                if (chain.length == 0) continue;
+                enter(polygon, chain, earliest_round(polygon) + 1);
+                ++band_.end_polygons;
+                grown = true;
+            }
+        }
+    }
+
+    int earliest_round(int polygon) const {
+        int earliest = std::numeric_limits<int>::max();
+        for (const int h : sides_[polygon]) {
+            if (inside(from(h))) earliest = std::min(earliest, band_.round[from(h)]);
+        }
+        return earliest;
+    }
+
     void mark_edges() {
         band_.edge.assign(mesh_.n_edges(), 0);
-        for (std::size_t i = 0; i < patch_.contour.size(); ++i) band_.edge[contour_halfedge(i).idx() / 2] = 1;
+        for (std::size_t i = 0; i < chain_length(); ++i) band_.edge[contour_halfedge(i).idx() / 2] = 1;
         for (std::size_t f = 0; f < band_.face.size(); ++f) {
             if (!band_.face[f]) continue;
             for (const auto e : mesh_.fe_range(PatchMesh::FaceHandle(static_cast<int>(f)))) band_.edge[e.idx()] = 1;
         }
     }
 
-    /// Walks the front of one side. Left fronts run along with the contour, right ones against it.
+    /// Walks the front of one side. Left fronts run along with the contour, right ones against it; those of an open curve begin and
+    /// end at its ends, which no polygon of one side alone can enclose.
     std::vector<int> boundary(Side side, const std::vector<int>& last) const {
         const auto front_from = [&](int vertex) {
             for (const auto h : mesh_.voh_range(PatchMesh::VertexHandle(vertex))) {
@@ -232,16 +286,16 @@ class Grower {
             return -1;
         };
         int start = -1;
+        if (!patch_.closed) start = side == Side::left ? patch_.contour.front() : patch_.contour.back();
         for (const int v : last) {
-            if (front_from(v) >= 0) {
-                start = v;
-                break;
-            }
+            if (start >= 0) break;
+            if (front_from(v) >= 0) start = v;
         }
         if (start < 0) start = first_new_vertex(side);
-        std::vector<int> curve;
-        for (int v = start; curve.empty() || v != start; v = to(front_from(v))) curve.push_back(v);
-        if (side == Side::right) std::reverse(curve.begin() + 1, curve.end());
+        if (start < 0) return {};
+        std::vector<int> curve{start};
+        for (int h = front_from(start); h >= 0 && to(h) != start; h = front_from(to(h))) curve.push_back(to(h));
+        if (side == Side::right) std::reverse(curve.begin() + (patch_.closed ? 1 : 0), curve.end());
         return curve;
     }
 
@@ -260,6 +314,10 @@ class Grower {
 
 }  // namespace
 
-Band grow_band(const Patch& patch, const Options& options) { return Grower(patch).grow(options.width); }
+Band grow_band(const Surface& surface, const Patch& patch, const Options& options, const Wishes& wishes) {
+    const double radius = options.band_distance ? surface.average_radius(patch.vertex[patch.contour[0]]) : 0.0;
+    const double farthest = options.band_distance ? *options.band_distance * radius : std::numeric_limits<double>::infinity();
+    return Grower(patch, farthest, wishes).grow(options.width);
+}
 
 }  // namespace mrc

@@ -35,8 +35,13 @@ int face_of_segment(const Surface& surface, const SurfacePoint& p, const Surface
 }  // namespace
 
 Contour trace_contour(const ContourGraph& graph, const Patch& patch, const Flow& flow, std::span<const int> nodes) {
-    // The last node of a closed path is the first again.
     std::vector<int> points;
+    if (!patch.closed) {
+        Contour open{{graph.points[graph.chords[graph.chord_of(nodes.front())].tail].place}, false};
+        for (const int node : nodes) open.points.push_back(graph.points[graph.chords[graph.chord_of(node)].head].place);
+        return open;
+    }
+    // The last node of a closed path is the first again.
     for (const int node : nodes.first(nodes.size() - 1)) points.push_back(graph.chords[graph.chord_of(node)].head);
     const double start = above(flow.value[patch.contour[0]], graph.level) - 1e-9;
     const auto behind = [&](int p) { return above(graph.points[p].level, start); };

@@ -213,7 +213,7 @@ class CurvatureField::Impl {
     std::vector<Vec3> normals_;               // of triangles
     std::vector<Mat3> tensors_;               // by number in near_
     std::vector<char> has_tensor_;
-    std::vector<int> disk_, crossed_;         // scratch of one disk
+    std::vector<int> disk_, crossed_;  // scratch of one disk
 
     double dihedral_angle(int halfedge, int twin) {
         const Vec3 n1 = triangle_normal(halfedge / 3), n2 = triangle_normal(twin / 3);
@@ -268,8 +268,8 @@ class CurvatureField::Impl {
         Mat3 sum = Mat3::Zero();
         for (const int t : disk_) {
             const auto& v = surface_.triangle(t);
-            area += area_in_ball(surface_.position(v[0]) - centre, surface_.position(v[1]) - centre, surface_.position(v[2]) - centre,
-                                 radius_);
+            area += area_in_ball(surface_.position(v[0]) - centre, surface_.position(v[1]) - centre,
+                                 surface_.position(v[2]) - centre, radius_);
         }
         for (const int h : crossed_) {
             const Vec3 a = surface_.position(surface_.from(h)) - centre, b = surface_.position(surface_.to(h)) - centre;
@@ -308,7 +308,8 @@ class CurvatureField::Impl {
         if (sigma_ == 0.0) return tensor(start);
         Mat3 sum = Mat3::Zero();
         double weights = 0.0;
-        near_.for_each_within(start, 3.0 * sigma_, [&](int n, double d) {
+        // On grids neighbours lie at just 3 sigma: rounding must not decide.
+        near_.for_each_within(start, 3.0 * sigma_ * (1.0 + 1e-9), [&](int n, double d) {
             const double weight = std::exp(-d * d / (2.0 * sigma_ * sigma_));
             sum += weight * tensor(n);
             weights += weight;

@@ -5,6 +5,41 @@
 
 namespace mrc {
 
+DistanceField::DistanceField(const Surface& surface, const Contour& contour) : surface_(surface) {
+    for (const SurfacePoint& p : contour.points) {
+        const double length = (surface.position(p.b) - surface.position(p.a)).norm();
+        reach(p.a, p.t * length);
+        if (!p.is_vertex()) reach(p.b, (1.0 - p.t) * length);
+    }
+}
+
+void DistanceField::reach(int vertex, double distance) const {
+    const auto [entry, fresh] = best_.emplace(vertex, distance);
+    if (!fresh && distance >= entry->second) return;
+    entry->second = distance;
+    queue_.emplace(distance, vertex);
+}
+
+bool DistanceField::settle_next() const {
+    while (!queue_.empty()) {
+        const auto [distance, vertex] = queue_.top();
+        queue_.pop();
+        if (!settled_.insert(vertex).second) continue;
+        surface_.for_each_real_edge(vertex, [&](int neighbour, int) {
+            reach(neighbour, distance + (surface_.position(neighbour) - surface_.position(vertex)).norm());
+        });
+        return true;
+    }
+    return false;
+}
+
+double DistanceField::at(int vertex) const {
+    while (!settled_.contains(vertex)) {
+        if (!settle_next()) return std::numeric_limits<double>::infinity();
+    }
+    return best_.at(vertex);
+}
+
 std::vector<std::pair<int, double>> distances_from(const Surface& surface, std::span<const int> vertices, double limit) {
     std::vector<std::pair<int, double>> settled;
     settle_outwards(surface, vertices, [&](int vertex, double distance) {
@@ -16,8 +51,11 @@ std::vector<std::pair<int, double>> distances_from(const Surface& surface, std::
 }
 
 std::vector<int> vertices_within(const Surface& surface, std::span<const int> vertices, int rings) {
-    std::vector<int> found(vertices.begin(), vertices.end());
-    std::unordered_set<int> seen(found.begin(), found.end());
+    std::vector<int> found;
+    std::unordered_set<int> seen;
+    for (const int v : vertices) {
+        if (seen.insert(v).second) found.push_back(v);
+    }
     for (std::size_t begin = 0; rings > 0; --rings) {
         const std::size_t end = found.size();
         for (; begin < end; ++begin) {

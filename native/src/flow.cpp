@@ -26,7 +26,8 @@ std::vector<int> way_out(const Patch& patch, const Band& band, int first) {
     std::vector<char> met(mesh.n_faces(), 0), wall(mesh.n_halfedges(), 0);
     const std::size_t count = patch.contour.size();
     for (std::size_t i = 0; i < count; ++i) {
-        const auto h = mesh.find_halfedge(PatchMesh::VertexHandle(patch.contour[i]), PatchMesh::VertexHandle(patch.contour[(i + 1) % count]));
+        const auto h =
+            mesh.find_halfedge(PatchMesh::VertexHandle(patch.contour[i]), PatchMesh::VertexHandle(patch.contour[(i + 1) % count]));
         wall[h.idx()] = wall[opposite(h.idx())] = 1;
     }
     struct Step {
@@ -57,7 +58,8 @@ std::vector<int> way_out(const Patch& patch, const Band& band, int first) {
 /// A closed 1-form of whole numbers with period 1: it counts the crossings of a chain of faces across the band.
 std::vector<int> crossing_form(const Patch& patch, const Band& band) {
     std::vector<int> jump(patch.mesh.n_halfedges(), 0);
-    const auto h = patch.mesh.find_halfedge(PatchMesh::VertexHandle(patch.contour[0]), PatchMesh::VertexHandle(patch.contour[1])).idx();
+    const auto h =
+        patch.mesh.find_halfedge(PatchMesh::VertexHandle(patch.contour[0]), PatchMesh::VertexHandle(patch.contour[1])).idx();
     const auto cross = [&](int halfedge, int sign) {
         jump[halfedge] += sign;
         jump[opposite(halfedge)] -= sign;
@@ -69,15 +71,31 @@ std::vector<int> crossing_form(const Patch& patch, const Band& band) {
     return jump;
 }
 
+/// Fixed values: closed, 0 at the contour's first vertex; open, 0 at the first and 1 at the last, and for ends on the border all along
+/// the pieces of mesh border that hold them.
+std::vector<double> fixed_values(const Patch& patch, const Band& band, const Options& options) {
+    std::vector<double> fixed(patch.vertex.size(), -1.0);
+    fixed[patch.contour.front()] = 0.0;
+    if (patch.closed) return fixed;
+    fixed[patch.contour.back()] = 1.0;
+    if (options.ends != Ends::border) return fixed;
+    const std::vector<int> first = border_piece(patch, band, patch.contour.front());
+    const std::vector<int> last = border_piece(patch, band, patch.contour.back());
+    if (std::ranges::find(first, patch.contour.back()) != first.end()) return fixed;
+    for (const int v : first) fixed[v] = 0.0;
+    for (const int v : last) fixed[v] = 1.0;
+    return fixed;
+}
+
 /// The harmonic flow: of all flows the one of least sum of squared increments over the real edges.
-Flow harmonic_flow(const Patch& patch, const Band& band) {
+Flow harmonic_flow(const Patch& patch, const Band& band, const Options& options) {
     const PatchMesh& mesh = patch.mesh;
-    Flow flow{std::vector<double>(mesh.n_vertices(), 0.0), crossing_form(patch, band)};
+    Flow flow{fixed_values(patch, band, options), {}};
+    flow.jump = patch.closed ? crossing_form(patch, band) : std::vector<int>(mesh.n_halfedges(), 0);
     std::vector<int> unknown(mesh.n_vertices(), -1);
     int count = 0;
     for (std::size_t v = 0; v < unknown.size(); ++v) {
-        const bool grounded = static_cast<int>(v) == patch.contour[0];
-        if (band.side[v] != Side::outside && !grounded) unknown[v] = count++;
+        if (band.side[v] != Side::outside && flow.value[v] < 0.0) unknown[v] = count++;
     }
     std::vector<Eigen::Triplet<double>> entries;
     Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
@@ -85,7 +103,7 @@ Flow harmonic_flow(const Patch& patch, const Band& band) {
         if (unknown[a] < 0) return;
         entries.emplace_back(unknown[a], unknown[a], 1.0);
         if (unknown[b] >= 0) entries.emplace_back(unknown[a], unknown[b], -1.0);
-        right[unknown[a]] += jump;
+        right[unknown[a]] += jump + (unknown[b] >= 0 ? 0.0 : flow.value[b]);
     };
     for (int h = 0; h < static_cast<int>(mesh.n_halfedges()); h += 2) {
         if (!band.edge[h / 2] || patch.diagonal_halfedge(h)) continue;
@@ -99,14 +117,31 @@ Flow harmonic_flow(const Patch& patch, const Band& band) {
     const Eigen::VectorXd solution = solver.solve(right);
     for (std::size_t v = 0; v < unknown.size(); ++v) {
         if (unknown[v] >= 0) flow.value[v] = solution[unknown[v]];
+        if (band.side[v] == Side::outside) flow.value[v] = 0.0;
     }
     return flow;
 }
 
 }  // namespace
 
-Flow make_flow(const Surface& surface, const Patch& patch, const Band& band, const Options& options) {
-    return options.flow == FlowKind::harmonic ? harmonic_flow(patch, band) : strip_flow(surface, patch, band, options);
+std::vector<int> border_piece(const Patch& patch, const Band& band, int vertex) {
+    const PatchMesh& mesh = patch.mesh;
+    std::vector<int> piece{vertex};
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+        for (const auto h : mesh.voh_range(PatchMesh::VertexHandle(piece[i]))) {
+            const int edge = h.idx() / 2, next = mesh.to_vertex_handle(h).idx();
+            // The border of the mesh, not merely of the patch.
+            if (!band.edge[edge] || patch.diagonal[edge] || !patch.border_edge[edge]) continue;
+            if (std::ranges::find(piece, next) == piece.end()) piece.push_back(next);
+        }
+    }
+    if (piece.size() == 1) piece.clear();
+    return piece;
+}
+
+Flow make_flow(const Surface&, const Patch& patch, const Band& band, const Options& options) {
+    if (options.flow == FlowKind::harmonic) return harmonic_flow(patch, band, options);
+    return strip_flow(patch, band, options.flow, fixed_values(patch, band, options));
 }
 
 }  // namespace mrc

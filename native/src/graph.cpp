@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <mrc/graph.h>
 
-#include "levels.h"
+#include "ambient.h"
+#include "memory.h"
+#include "requirements.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <string>
+#include <tuple>
+#include <vector>
 
 namespace mrc {
 namespace {
@@ -15,22 +20,32 @@ using Halfedge = PatchMesh::HalfedgeHandle;
 enum class Climb : std::uint8_t { rising, falling, along };  // level chords by rank, and those that the flow runs along
 
 struct DirectedSegment {
-    int tail, head, face, crossings;
+    int tail, head;
+    int segment;
+    int crossings;
     double increment;
     Climb climb;
 };
 
 class GraphBuilder {
   public:
-    GraphBuilder(const Surface& surface, const Patch& patch, const Band& band, const Flow& flow, const Energy& energy)
-        : surface_(surface), patch_(patch), band_(band), flow_(flow), energy_(energy) {}
+    GraphBuilder(const Surface& surface, const Patch& patch, const Band& band, const Flow& flow, const Energy& energy,
+                 const Options& options, const Wishes& wishes, int steiner, const EdgeForm* region)
+        : surface_(surface),
+          patch_(patch),
+          band_(band),
+          energy_(energy),
+          options_(options),
+          wishes_(wishes),
+          region_(region),
+          given_(expressed(patch.given, steiner).points),
+          ambient_(make_ambient_graph(patch, band, flow, steiner)) {}
 
     ContourGraph build() {
-        add_points();
-        add_segments();
-        merge_levels(values_, segments_);
+        merge_levels(ambient_.values, ambient_.segments);
         choose_level();
         orient();
+        require();
         sort_chords();
         find_given();
         join();
@@ -41,54 +56,40 @@ class GraphBuilder {
     const Surface& surface_;
     const Patch& patch_;
     const Band& band_;
-    const Flow& flow_;
     const Energy& energy_;
+    const Options& options_;
+    const Wishes& wishes_;
+    const EdgeForm* region_;
+    const std::vector<SurfacePoint> given_;  // the given contour with the graph's own points along edges
+    AmbientGraph ambient_;
     ContourGraph graph_;
-    std::vector<int> point_of_vertex_;
-    std::vector<double> values_;
-    std::vector<Segment> segments_;
     std::vector<DirectedSegment> directed_;
+    Requirements requirements_;
     std::vector<int> given_place_;  // of each chord: its place in the given contour, or -1
 
-    void add_points() {
-        point_of_vertex_.assign(patch_.vertex.size(), -1);
-        for (std::size_t v = 0; v < patch_.vertex.size(); ++v) {
-            if (band_.side[v] == Side::outside) continue;
-            point_of_vertex_[v] = static_cast<int>(graph_.points.size());
-            const double rank = static_cast<double>(band_.side[v]) * patch_.distance[v];
-            graph_.points.push_back({vertex_point(patch_.vertex[v]), 0.0, rank});
-            values_.push_back(flow_.value[v]);
-        }
-    }
-
-    /// The regular graph's segments are the real edges of the band.
-    void add_segments() {
-        for (int e = 0; e < static_cast<int>(patch_.mesh.n_edges()); ++e) {
-            if (!band_.edge[e] || patch_.diagonal[e]) continue;
-            const Halfedge h(2 * e);
-            const int halfedge = patch_.halfedge[2 * e] >= 0 ? patch_.halfedge[2 * e] : patch_.halfedge[2 * e + 1];
-            segments_.push_back({point_of_vertex_[patch_.mesh.from_vertex_handle(h).idx()],
-                                 point_of_vertex_[patch_.mesh.to_vertex_handle(h).idx()], flow_.jump[2 * e],
-                                 surface_.halfedge_face(halfedge)});
-        }
-    }
-
     void choose_level() {
-        graph_.level = cheapest_level(values_, segments_);
-        for (std::size_t p = 0; p < values_.size(); ++p) graph_.points[p].level = above(values_[p], graph_.level);
+        if (patch_.closed) graph_.level = cheapest_level(ambient_.values, ambient_.segments);
+        for (std::size_t p = 0; p < ambient_.places.size(); ++p) {
+            const double level = patch_.closed ? above(ambient_.values[p], graph_.level) : ambient_.values[p];
+            graph_.points.push_back({ambient_.places[p], level, ambient_.ranks[p]});
+        }
     }
 
     /// Each segment becomes the chord that the flow runs along; a level one becomes two, by rank; of equal rank, none.
     void orient() {
-        for (const Segment& s : segments_) {
+        for (const Segment& s : ambient_.segments) {
+            if (!s.walkable) continue;
             const double a = graph_.points[s.a].level, b = graph_.points[s.b].level;
-            const int crossings = s.jump + whole(values_[s.b], graph_.level) - whole(values_[s.a], graph_.level);
+            const int crossings =
+                patch_.closed ? s.jump + whole(ambient_.values[s.b], graph_.level) - whole(ambient_.values[s.a], graph_.level) : 0;
             const double increment = b - a + crossings;
             if (increment == 0.0) {
                 orient_level(s);
-            } else if (std::abs(increment) < 1.0) {  // no closed contour holds a chord that goes all the way round
+            } else if (!patch_.closed ||
+                       std::abs(increment) < 1.0) {  // no closed contour holds a chord that goes all the way round
                 const bool forward = increment > 0.0;
-                directed_.push_back({forward ? s.a : s.b, forward ? s.b : s.a, s.face, std::abs(crossings), std::abs(increment), Climb::along});
+                directed_.push_back(
+                    {forward ? s.a : s.b, forward ? s.b : s.a, index(s), std::abs(crossings), std::abs(increment), Climb::along});
             }
         }
     }
@@ -98,10 +99,73 @@ class GraphBuilder {
         const double length = (position(s.b) - position(s.a)).norm();
         if (std::abs(difference) <= 1e-9 * length) return;
         const int low = difference > 0.0 ? s.a : s.b, high = difference > 0.0 ? s.b : s.a;
-        directed_.push_back({low, high, s.face, 0, 0.0, Climb::rising});
-        directed_.push_back({high, low, s.face, 0, 0.0, Climb::falling});
+        directed_.push_back({low, high, index(s), 0, 0.0, Climb::rising});
+        directed_.push_back({high, low, index(s), 0, 0.0, Climb::falling});
     }
 
+    Requirements::Place place(int point) const { return {graph_.points[point].level, graph_.points[point].rank, point}; }
+    Requirements::Span span(const DirectedSegment& d) const {
+        const GraphPoint &tail = graph_.points[d.tail], &head = graph_.points[d.head];
+        return {tail.level, head.level, d.crossings > 0, tail.rank, head.rank, d.segment};
+    }
+
+    /// The band's vertex for a required one.
+    int required_point(int vertex) const {
+        const auto found = ambient_.local.find(vertex);
+        if (found != ambient_.local.end()) return ambient_.point_of_vertex[found->second];
+        throw InvalidInput("required vertex " + std::to_string(vertex) +
+                           " lies outside the band: widen the band or drop the requirement");
+    }
+
+    /// Deletes the chords that no contour through the required elements can hold (4.4).
+    void require() {
+        for (const int v : wishes_.required_vertices) requirements_.require(place(required_point(v)));
+        for (const auto& [a, b] : wishes_.required_edges) require_edge(a, b);
+        if (!patch_.closed && options_.ends == Ends::edges) require_end_edges();
+        if (requirements_.empty()) return;
+        std::erase_if(directed_, [&](const DirectedSegment& d) { return !requirements_.allows(span(d)); });
+    }
+
+    void require_edge(int a, int b) {
+        const int p = required_point(a), q = required_point(b);
+        const auto h =
+            patch_.mesh.find_halfedge(PatchMesh::VertexHandle(ambient_.local.at(a)), PatchMesh::VertexHandle(ambient_.local.at(b)));
+        const int edge = h.is_valid() ? h.idx() / 2 : -1;
+        if (edge < 0 || !band_.edge[edge] || patch_.diagonal[edge] || patch_.border_edge[edge]) {
+            throw InvalidInput("required edge (" + std::to_string(a) + ", " + std::to_string(b) +
+                               ") is no edge inside the band: widen the band or drop the requirement");
+        }
+        requirements_.require(place(p));
+        requirements_.require(place(q));
+        std::vector<int> own = segments_of_edge(edge);
+        for (const DirectedSegment& d : directed_) {
+            if (std::ranges::find(own, d.segment) != own.end()) requirements_.require(span(d), own);
+        }
+    }
+
+    std::vector<int> segments_of_edge(int edge) const {
+        const int halfedge = std::max(patch_.halfedge[2 * edge], patch_.halfedge[2 * edge + 1]);
+        std::vector<int> own;
+        for (std::size_t i = 0; i < ambient_.segments.size(); ++i) {
+            const int h = ambient_.segments[i].halfedge;
+            if (h >= 0 && surface_.edge(h) == surface_.edge(halfedge)) own.push_back(static_cast<int>(i));
+        }
+        return own;
+    }
+
+    /// Open curves with their first and last edge held (4.6). A refined one whose ends are no whole edges holds its end points.
+    void require_end_edges() {
+        const auto& points = given_;
+        const auto hold = [&](const SurfacePoint& end, const SurfacePoint& next) {
+            if (!end.is_vertex()) return;
+            const int other = next.is_vertex() ? next.a : next.a == end.a ? next.b : next.b == end.a ? next.a : -1;
+            if (other >= 0 && surface_.real_edge(end.a, other)) require_edge(end.a, other);
+        };
+        hold(points.front(), points[1]);
+        hold(points.back(), points[points.size() - 2]);
+    }
+
+    int index(const Segment& s) const { return static_cast<int>(&s - ambient_.segments.data()); }
     Vec3 position(int point) const { return surface_.position(graph_.points[point].place); }
 
     /// Topological order: by the flow at the tail; level chords first, each kind by rank in its own direction; crossing ones last.
@@ -119,7 +183,7 @@ class GraphBuilder {
         };
         std::ranges::sort(directed_, {}, key);
         for (const DirectedSegment& d : directed_) {
-            graph_.chords.push_back({d.tail, d.head, d.face, d.increment});
+            graph_.chords.push_back({d.tail, d.head, d.increment});
             graph_.crossing += d.crossings;
         }
     }
@@ -127,26 +191,75 @@ class GraphBuilder {
     /// The places of the chords that the given contour runs along.
     void find_given() {
         given_place_.assign(graph_.chords.size(), -1);
-        const std::size_t count = patch_.contour.size();
+        const std::size_t count = given_.size();
         std::vector<int> place(graph_.points.size(), -1);
-        for (std::size_t i = 0; i < count; ++i) place[point_of_vertex_[patch_.contour[i]]] = static_cast<int>(i);
+        for (std::size_t i = 0; i < count; ++i) {
+            const int p = ambient_.point_at(patch_, given_[i]);
+            if (p >= 0) place[p] = static_cast<int>(i);
+        }
         for (std::size_t c = 0; c < graph_.chords.size(); ++c) {
             const int tail = place[graph_.chords[c].tail], head = place[graph_.chords[c].head];
-            if (tail >= 0 && head >= 0 && head == (tail + 1) % static_cast<int>(count)) given_place_[c] = tail;
+            const bool follows = head == tail + 1 || (patch_.closed && head == 0 && tail + 1 == static_cast<int>(count));
+            if (tail >= 0 && head >= 0 && follows) given_place_[c] = tail;
         }
     }
 
     bool consecutive_in_given(int in, int out) const {
         return given_place_[in] >= 0 && given_place_[out] >= 0 &&
-               given_place_[out] == (given_place_[in] + 1) % static_cast<int>(patch_.contour.size());
+               given_place_[out] == (given_place_[in] + 1) % static_cast<int>(given_.size());
     }
+
+    static int sign(Climb climb) { return climb == Climb::rising ? 1 : climb == Climb::falling ? -1 : 0; }
 
     bool joins(int in, int out, const ChordEnd& end, const ChordEnd& start) const {
         const DirectedSegment &e1 = directed_[in], &e2 = directed_[out];
         if (e1.tail == e2.head) return false;
         // A contour passes a level by one monotone chain.
         if (e1.climb != Climb::along && e2.climb != Climb::along && e1.climb != e2.climb) return false;
-        return consecutive_in_given(in, out) || !energy_.turns_too_much(end, start);
+        const int climb_in = sign(e1.climb), climb_out = sign(e2.climb);
+        if (!requirements_.empty() && !requirements_.allows_arc(place(e2.tail), climb_in, climb_out)) return false;
+        if (consecutive_in_given(in, out)) return true;
+        // Two chords inside one triangle are never better than one (3.2).
+        const int triangle = ambient_.segments[e1.segment].triangle;
+        if (triangle >= 0 && triangle == ambient_.segments[e2.segment].triangle) return false;
+        return !energy_.turns_too_much(end, start);
+    }
+
+    /// The points at which an open curve may end: its own end, or the piece of mesh border within the band that holds it.
+    std::vector<char> end_points(const SurfacePoint& end, const SurfacePoint& other) const {
+        std::vector<char> allowed(graph_.points.size(), 0);
+        if (const int own = ambient_.point_at(patch_, end); own >= 0) allowed[own] = 1;
+        if (options_.ends != Ends::border || !end.is_vertex() || !other.is_vertex()) return allowed;
+        const std::vector<int> piece = border_piece(patch_, band_, ambient_.local.at(end.a));
+        if (std::ranges::find(piece, ambient_.local.at(other.a)) != piece.end()) return allowed;
+        for (const int v : piece) {
+            allowed[ambient_.point_of_vertex[v]] = 1;
+            for (const auto h : patch_.mesh.voh_range(PatchMesh::VertexHandle(v))) {
+                const int first = patch_.border_edge[h.idx() / 2] ? ambient_.first_point_of_edge[h.idx() / 2] : -1;
+                for (int i = 0; first >= 0 && i < ambient_.steiner; ++i) allowed[first + i] = 1;
+            }
+        }
+        return allowed;
+    }
+
+    /// Any chord that leaves the first end may begin a path, and any that reaches the last may end it, each with the outer half that
+    /// eq. 3.3 leaves out.
+    void add_open_ends(const std::vector<Frame>& frames, const std::vector<ChordEnd>& starts, const std::vector<ChordEnd>& ends) {
+        const auto& given = given_;
+        const std::vector<char> first = end_points(given.front(), given.back()), last = end_points(given.back(), given.front());
+        for (std::size_t c = 0; c < graph_.chords.size(); ++c) {
+            const auto [tail, head, increment] = graph_.chords[c];
+            const int node = static_cast<int>(c);
+            const auto half = [&](int point, const ChordEnd& in, const ChordEnd& out) {
+                return Terminal{node, energy_.numerator(frames[point], in, out), energy_.denominator(in, out)};
+            };
+            // A path that begins or ends at the level of a required vertex begins or ends there.
+            const int climb = sign(directed_[c].climb);
+            const bool may_begin = first[tail] && requirements_.allows_arc(place(tail), 0, climb);
+            const bool may_end = last[head] && requirements_.allows_arc(place(head), climb, 0);
+            if (may_begin) graph_.search.sources.push_back(half(tail, {}, starts[c]));
+            if (may_end) graph_.search.destinations.push_back(half(head, ends[c], {}));
+        }
     }
 
     /// The arcs: pairs of chords, the second of which starts where the first ends.
@@ -154,13 +267,20 @@ class GraphBuilder {
         std::vector<Frame> frames;
         for (const GraphPoint& p : graph_.points) frames.push_back(energy_.frame(p.place));
         std::vector<ChordEnd> starts, ends;
+        std::vector<double> enclosed(graph_.chords.size(), 0.0);  // half of what each chord adds to the region term
         std::vector<std::vector<int>> arriving(graph_.points.size());
         for (std::size_t c = 0; c < graph_.chords.size(); ++c) {
             const Chord& chord = graph_.chords[c];
             const Vec3 along = position(chord.head) - position(chord.tail);
-            starts.push_back(Energy::chord_end(frames[chord.tail], along));
-            ends.push_back(Energy::chord_end(frames[chord.head], along));
+            const int halfedge = ambient_.segments[directed_[c].segment].halfedge;
+            const double crease = halfedge >= 0 ? energy_.crease_cost(halfedge) : energy_.plain_crease_cost();
+            starts.push_back(Energy::chord_end(frames[chord.tail], along, crease));
+            ends.push_back(Energy::chord_end(frames[chord.head], along, crease));
             arriving[chord.head].push_back(static_cast<int>(c));
+            if (region_) {
+                enclosed[c] = 0.5 * energy_.region_factor() *
+                              region_->along(graph_.points[chord.tail].place, graph_.points[chord.head].place);
+            }
         }
         const int chords = static_cast<int>(graph_.chords.size()), plain = chords - graph_.crossing;
         const auto node_after = [&](int c) { return c < plain ? graph_.crossing + c : c - plain; };
@@ -172,22 +292,26 @@ class GraphBuilder {
                 if (!joins(in, out, ends[in], starts[out])) continue;
                 if (in >= plain && out >= plain) continue;
                 search.from.push_back(node_after(in));
-                search.f.push_back(energy_.numerator(frames[point], ends[in], starts[out]));
-                search.g.push_back(Energy::denominator(ends[in], starts[out]));
+                search.f.push_back(energy_.numerator(frames[point], ends[in], starts[out]) + enclosed[in] + enclosed[out]);
+                search.g.push_back(energy_.denominator(ends[in], starts[out]));
             }
             search.first_arc.push_back(static_cast<int>(search.from.size()));
         }
+        search.matched = patch_.closed;
         for (int i = 0; i < graph_.crossing; ++i) {
             search.sources.push_back({i, 0.0, 0.0});
             search.destinations.push_back({chords + i, 0.0, 0.0});
         }
+        if (!patch_.closed) add_open_ends(frames, starts, ends);
     }
 };
 
 }  // namespace
 
-ContourGraph make_graph(const Surface& surface, const Patch& patch, const Band& band, const Flow& flow, const Energy& energy) {
-    return GraphBuilder(surface, patch, band, flow, energy).build();
+ContourGraph make_graph(const Surface& surface, const Patch& patch, const Band& band, const Flow& flow, const Energy& energy,
+                        const Options& options, const Wishes& wishes, int steiner, const EdgeForm* region) {
+    check_graph_size(static_cast<double>(std::ranges::count(band.face, 1)), steiner);
+    return GraphBuilder(surface, patch, band, flow, energy, options, wishes, steiner, region).build();
 }
 
 }  // namespace mrc

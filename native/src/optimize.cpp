@@ -1,22 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <mrc/optimize.h>
 
+#include "memory.h"
+
 #include <mrc/contour.h>
 #include <mrc/ratio.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
+#include <memory>
+#include <sstream>
 
 namespace mrc {
 namespace {
 
 /// Scales, curvature and energy, made once for a call.
 struct Setting {
-    Setting(const Surface& surface, const Contour& contour, const Options& options, const Scales* given)
+    Setting(const Surface& surface, const Contour& contour, const Options& options, const std::vector<Attractor>& attractors,
+            const Scales* given)
         : field(surface, given ? given->h : mean_edge_length(surface, contour), options),
           scales(given ? *given : contour_scales(surface, field, mean_edge_length(surface, contour), contour, options)),
-          energy(surface, field, scales, options) {}
+          energy(surface, field, scales, options, attractors) {}
     Setting(const Setting&) = delete;
     Setting& operator=(const Setting&) = delete;
 
@@ -41,29 +47,63 @@ class Stopwatch {
     std::map<std::string, double>& seconds_;
 };
 
-/// True where a is below b by more than rounding.
-bool below(double a, double b) { return a < b - 1e-12 * std::max(std::abs(a), std::abs(b)); }
+constexpr const char* no_neighbour =
+    "no simple contour along mesh edges lies beside the given one, so that no band can grow from it";
+
+/// How far along the flow contours with the required elements get, in words.
+std::string where_it_stops(const ContourGraph& graph, const Wishes& wishes) {
+    const WeightedGraph& search = graph.search;
+    std::vector<char> reached(search.node_count(), 0);
+    for (const Terminal& s : search.sources) reached[s.node] = 1;
+    const GraphPoint* farthest = nullptr;
+    for (int n = 0; n < search.node_count(); ++n) {
+        for (int a = search.first_arc[n]; a < search.first_arc[n + 1]; ++a) reached[n] |= reached[search.from[a]];
+        const int chord = search.matched ? graph.chord_of(n) : n;
+        const GraphPoint& head = graph.points[graph.chords[chord].head];
+        const bool source = search.matched && n < graph.crossing;
+        if (reached[n] && !source && (!farthest || head.level > farthest->level)) farthest = &head;
+    }
+    std::ostringstream message;
+    message << "no contour of the band has all " << wishes.required_vertices.size() + wishes.required_edges.size()
+            << " required elements: the search ";
+    if (farthest) {
+        message << "stops at vertex " << farthest->place.a;
+    } else {
+        message << "cannot even begin";
+    }
+    message << ". Widen the band, raise max_turn or drop a requirement";
+    return message.str();
+}
 
 class Optimization {
   public:
-    Optimization(const Surface& surface, const Contour& contour, const Options& options, const Scales* scales, const Progress& progress)
-        : surface_(surface), options_(options), progress_(progress), stopwatch_(result_.statistics.seconds), given_(contour) {
-        setting_ = stopwatch_.time("curvature", [&] { return std::make_unique<Setting>(surface, contour, options, scales); });
+    Optimization(const Surface& surface, const Contour& contour, const Options& options, const Wishes& wishes, const Scales* scales,
+                 const Progress& progress)
+        : surface_(surface),
+          options_(options),
+          wishes_(wishes),
+          progress_(progress),
+          stopwatch_(result_.statistics.seconds),
+          given_(contour),
+          feasible_(meets(contour, wishes)) {
+        setting_ = stopwatch_.time("curvature",
+                                   [&] { return std::make_unique<Setting>(surface, contour, options, wishes.attractors, scales); });
     }
 
     Result run() {
-        const Measure first = mrc::measure(surface_, setting_->energy, given_);
+        if (!wishes_.region_density.empty() && options_.region_weight != 0.0) {
+            enclosed_ = enclosed_change(surface_, wishes_.region_density, setting_->scales.given, given_);
+        }
+        const Measure first = mrc::measure(surface_, setting_->energy, given_, options_.refinement, enclosed_);
         result_.scales = setting_->scales;
         result_.contour = given_;
         result_.ratio = result_.initial_ratio = first.ratio;
         result_.objective = result_.initial_objective = first.objective;
         result_.lower_bound = first.objective;
-        result_.salience = -first.ratio / setting_->scales.K;
-        result_.history.push_back(first.objective);
-        for (int i = 0; i < options_.iterations; ++i) {
-            if (!report(static_cast<double>(i) / options_.iterations)) return cancelled();
-            if (!iterate()) break;
-        }
+        result_.salience = first.salience;
+        if (options_.regular_iterations > 0 && !run_phase(options_.regular_iterations, 0)) return cancelled();
+        if (!run_phase(options_.iterations, options_.refinement)) return cancelled();
+        if (featureless() && result_.statistics.iterations > 0) keep_given();
         if (!report(1.0)) return cancelled();
         return std::move(result_);
     }
@@ -71,11 +111,22 @@ class Optimization {
   private:
     const Surface& surface_;
     const Options& options_;
+    const Wishes& wishes_;
     const Progress& progress_;
     Result result_;
     Stopwatch stopwatch_;
-    const Contour& given_;
+    const Contour given_;
+    bool feasible_;  // the contour reached so far has all required elements
     std::unique_ptr<Setting> setting_;
+    Measure current_;        // of the contour reached so far
+    int steiner_ = 0;        // k of the iterations under way
+    double enclosed_ = 0.0;  // the change of the region term's integral so far
+
+    /// True where objective a is below b by more than rounding.
+    bool below(double a, double b) const {
+        const double unit = options_.length_bias == 0.0 ? setting_->energy.unit() : 1.0;
+        return a < b - 1e-12 * std::max({unit, std::abs(a), std::abs(b)});
+    }
 
     bool report(double share) const { return !progress_ || progress_(share); }
 
@@ -92,45 +143,98 @@ class Optimization {
         return result;
     }
 
+    /// Iterations with one k, measured with its Steiner points: a segment of the history. False: cancelled.
+    bool run_phase(int iterations, int steiner) {
+        steiner_ = steiner;
+        current_ = mrc::measure(surface_, setting_->energy, result_.contour, steiner, enclosed_);
+        result_.ratio = current_.ratio;
+        result_.objective = result_.lower_bound = current_.objective;
+        if (feasible_) result_.history.push_back(current_.objective);
+        for (int i = 0; i < iterations; ++i) {
+            if (!report(share_done())) return false;
+            if (!iterate()) break;
+        }
+        return true;
+    }
+
+    double share_done() const {
+        return static_cast<double>(result_.statistics.iterations) / (options_.regular_iterations + options_.iterations);
+    }
+
     /// One iteration; false where the contour did not move.
     bool iterate() {
         const Contour& current = result_.contour;
-        const Patch patch = stopwatch_.time("patch", [&] { return make_patch(surface_, current, options_.width); });
-        const Band band = stopwatch_.time("band", [&] { return grow_band(patch, options_); });
-        const Flow flow = stopwatch_.time("flow", [&] { return make_flow(surface_, patch, band, options_); });
-        const ContourGraph graph = stopwatch_.time("graph", [&] { return make_graph(surface_, patch, band, flow, setting_->energy); });
-        const RatioResult best = stopwatch_.time("ratio", [&] { return minimum_ratio(graph.search); });
-        count(band, graph, best);
         ++result_.statistics.iterations;
-        const double before = result_.objective;
-        result_.lower_bound = best.found ? std::min(best.lower_bound, before) : before;
-        result_.gap = 0.0;
-        if (best.found) {
-            const Contour found = trace_contour(graph, patch, flow, best.nodes);
-            const Measure measured = mrc::measure(surface_, setting_->energy, found);
-            accept(found, measured);
+        if (!has_neighbour_along_edges(surface_, current)) {
+            if (result_.status == Status::unchanged) result_.reason = no_neighbour;
+            return false;
         }
+        const Patch patch = stopwatch_.time("patch", [&] { return make_patch(surface_, current, options_.width); });
+        const Band band = stopwatch_.time("band", [&] { return grow_band(surface_, patch, options_, wishes_); });
+        const Flow flow = stopwatch_.time("flow", [&] { return make_flow(surface_, patch, band, options_); });
+        const std::optional<EdgeForm> region = make_region_form(patch, band, flow);
+        const ContourGraph graph = stopwatch_.time("graph", [&] {
+            return make_graph(surface_, patch, band, flow, setting_->energy, options_, wishes_, steiner_,
+                              region ? &*region : nullptr);
+        });
+        const RatioResult best = stopwatch_.time("ratio", [&] { return minimum_ratio(graph.search, search_options()); });
+        count(band, graph, best);
+        if (!feasible_ && !best.found) throw Infeasible(where_it_stops(graph, wishes_));
+        const double before = feasible_ ? result_.objective : std::numeric_limits<double>::infinity();
+        result_.lower_bound = best.found ? std::min(best.lower_bound, before) : before;
+        if (best.found) accept(trace_contour(graph, patch, flow, best.nodes), region);
+        result_.gap = std::max(0.0, result_.objective - result_.lower_bound);
         result_.history.push_back(result_.objective);
         explain(band, best);
-        return below(result_.objective, before);
+        return below(result_.objective, before) && !featureless();
     }
 
-    void accept(const Contour& found, const Measure& measured) {
-        result_.salience = -measured.ratio / setting_->scales.K;
-        result_.gap = std::max(0.0, measured.objective - result_.lower_bound);
-        if (!below(measured.objective, result_.objective)) {
-            result_.gap = std::max(0.0, result_.objective - result_.lower_bound);
-            return;
-        }
+    /// The search begins at what the current contour suggests.
+    RatioOptions search_options() const {
+        RatioOptions options;
+        options.objective = setting_->energy.objective();
+        options.guess = Terminal{-1, current_.numerator, current_.length};
+        return options;
+    }
+
+    std::optional<EdgeForm> make_region_form(const Patch& patch, const Band& band, const Flow& flow) const {
+        if (wishes_.region_density.empty() || options_.region_weight == 0.0) return std::nullopt;
+        return region_form(surface_, patch, band, flow, wishes_.region_density, enclosed_);
+    }
+
+    void accept(const Contour& found, const std::optional<EdgeForm>& region) {
+        const double enclosed = region ? region->along(found) : 0.0;
+        const Measure measured = mrc::measure(surface_, setting_->energy, found, steiner_, enclosed);
+        result_.salience = measured.salience;
+        if (feasible_ && !below(measured.objective, result_.objective)) return;
         result_.contour = found;
         result_.ratio = measured.ratio;
         result_.objective = measured.objective;
-        result_.status = Status::improved;
+        if (result_.status != Status::constrained) result_.status = feasible_ ? Status::improved : Status::constrained;
+        feasible_ = true;
+        current_ = measured;
+        enclosed_ = enclosed;
+    }
+
+    /// Nothing concave was found to go to (min_salience).
+    bool featureless() const { return options_.min_salience && result_.salience < *options_.min_salience; }
+
+    /// Puts the given contour back; the certificate stays that of the best found.
+    void keep_given() {
+        std::ostringstream reason;
+        reason << "there is nothing concave to find here: the best contour's salience is " << result_.salience << ", below "
+               << *options_.min_salience;
+        result_.reason = reason.str();
+        if (result_.status == Status::constrained) return;  // the given contour breaks a requirement
+        result_.contour = given_;
+        result_.status = Status::unchanged;
+        result_.ratio = result_.initial_ratio;
+        result_.objective = result_.initial_objective;
     }
 
     void explain(const Band& band, const RatioResult& best) {
         result_.reason.clear();
-        if (result_.status == Status::improved) return;
+        if (result_.status != Status::unchanged) return;
         if (band.polygons.empty()) {
             result_.reason = "nothing can grow around the contour: its faces touch it all round";
         } else if (!best.found) {
@@ -151,6 +255,14 @@ class Optimization {
     }
 };
 
+/// The contour, once it and the size of what is asked are checked; a band has at least as many triangles as its contour segments.
+Contour checked_input(const Surface& surface, const Contour& contour, const Options& options) {
+    options.check();
+    Contour checked = checked_contour(surface, contour);
+    check_graph_size(static_cast<double>(checked.points.size()), options.refinement);
+    return checked;
+}
+
 double whole_mean_edge_length(const Surface& surface) {
     double sum = 0.0;
     int count = 0;
@@ -165,17 +277,26 @@ double whole_mean_edge_length(const Surface& surface) {
 
 }  // namespace
 
-Result optimize(const Surface& surface, const Contour& contour, const Options& options, const Scales* scales, const Progress& progress) {
+Result optimize(const Surface& surface, const Contour& contour, const Options& options, const Wishes& wishes, const Scales* scales,
+                const Progress& progress) {
     options.check();
-    check_contour(surface, contour);
-    return Optimization(surface, contour, options, scales, progress).run();
+    wishes.check(surface);
+    const Contour checked = checked_input(surface, contour, options);
+    check_barriers(surface, checked, wishes);
+    if (!checked.closed && !wishes.region_density.empty())
+        throw InvalidInput("the region term needs a closed contour: an open one encloses nothing");
+    return Optimization(surface, checked, options, wishes, scales, progress).run();
 }
 
-Measure measure(const Surface& surface, const Contour& contour, const Options& options, const Scales* scales) {
+Measure measure(const Surface& surface, const Contour& contour, const Options& options, const Wishes& wishes,
+                const Scales* scales) {
     options.check();
-    check_contour(surface, contour);
-    const Setting setting(surface, contour, options, scales);
-    return measure(surface, setting.energy, contour);
+    wishes.check(surface);
+    const Contour checked = checked_input(surface, contour, options);
+    const Setting setting(surface, checked, options, wishes.attractors, scales);
+    const bool region = scales && !wishes.region_density.empty() && options.region_weight != 0.0;
+    return measure(surface, setting.energy, checked, options.refinement,
+                   region ? enclosed_change(surface, wishes.region_density, scales->given, checked) : 0.0);
 }
 
 std::vector<VertexCurvature> curvature(const Surface& surface, const Options& options, const Scales* scales) {
@@ -187,15 +308,18 @@ std::vector<VertexCurvature> curvature(const Surface& surface, const Options& op
     return result;
 }
 
-SearchSpace search_space(const Surface& surface, const Contour& contour, const Options& options, const Scales* scales) {
+SearchSpace search_space(const Surface& surface, const Contour& contour, const Options& options, const Wishes& wishes,
+                         const Scales* scales) {
     options.check();
-    check_contour(surface, contour);
-    const Setting setting(surface, contour, options, scales);
+    wishes.check(surface);
+    const Contour checked = checked_input(surface, contour, options);
+    const Setting setting(surface, checked, options, wishes.attractors, scales);
     SearchSpace space;
-    space.patch = make_patch(surface, contour, options.width);
-    space.band = grow_band(space.patch, options);
+    if (!has_neighbour_along_edges(surface, checked)) throw InvalidInput(no_neighbour);
+    space.patch = make_patch(surface, checked, options.width);
+    space.band = grow_band(surface, space.patch, options, wishes);
     space.flow = make_flow(surface, space.patch, space.band, options);
-    space.graph = make_graph(surface, space.patch, space.band, space.flow, setting.energy);
+    space.graph = make_graph(surface, space.patch, space.band, space.flow, setting.energy, options, wishes, options.refinement);
     return space;
 }
 

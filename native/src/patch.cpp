@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <mrc/patch.h>
 
+#include "guide.h"
+
 #include <mrc/distances.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
+#include <tuple>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -33,30 +37,51 @@ bool usable(const Surface& surface, int face) {
     return vertices.size() == 3 || !has_shared_diagonal(surface, face);
 }
 
-void check_indices(const Surface& surface, const Contour& contour) {
-    for (const SurfacePoint& p : contour.points) {
-        for (const int v : {p.a, p.b}) {
-            if (v < 0 || v >= surface.vertex_count()) {
-                throw InvalidInput("contour vertex " + std::to_string(v) + " is out of range: the surface has " +
-                                   std::to_string(surface.vertex_count()) + " vertices");
-            }
+std::string point_name(const SurfacePoint& p) {
+    return p.is_vertex() ? "vertex " + std::to_string(p.a)
+                         : "the point at " + std::to_string(p.t) + " of edge " + edge_name(p.a, p.b);
+}
+
+/// A half-edge with these ends, real or diagonal, or -1.
+int any_halfedge(const Surface& surface, int a, int b) {
+    for (const int h : surface.outgoing(a)) {
+        if (surface.to(h) == b) return h;
+    }
+    return -1;
+}
+
+void check_point(const Surface& surface, const SurfacePoint& p) {
+    for (const int v : {p.a, p.b}) {
+        if (v < 0 || v >= surface.vertex_count()) {
+            throw InvalidInput("contour vertex " + std::to_string(v) + " is out of range: the surface has " +
+                               std::to_string(surface.vertex_count()) + " vertices");
         }
-        if (!p.is_vertex()) {
-            throw InvalidInput("the contour's point on edge " + edge_name(p.a, p.b) + " is not at a vertex: give a contour along mesh edges");
-        }
+    }
+    if (!(p.t >= 0.0 && p.t <= 1.0)) {
+        throw InvalidInput("the contour's point on edge " + edge_name(p.a, p.b) + " has parameter " + std::to_string(p.t) +
+                           ": it must be from 0 to 1");
+    }
+    if (!p.is_vertex() && any_halfedge(surface, p.a, p.b) < 0 && any_halfedge(surface, p.b, p.a) < 0) {
+        throw InvalidInput("the contour's vertices " + std::to_string(p.a) + " and " + std::to_string(p.b) +
+                           " are not joined by an edge");
     }
 }
 
-void check_simple(const Contour& contour) {
+/// The order of points on edges, whichever way these are written.
+std::tuple<int, int, double> place_key(const SurfacePoint& p) {
+    return p.a <= p.b ? std::tuple(p.a, p.b, p.t) : std::tuple(p.b, p.a, 1.0 - p.t);
+}
+
+void check_distinct(const Contour& contour) {
     const std::size_t least = contour.closed ? 3 : 2;
     if (contour.points.size() < least) {
         throw InvalidInput("a contour of " + std::to_string(contour.points.size()) + " vertices: a " +
                            (contour.closed ? "closed" : "open") + " contour needs at least " + std::to_string(least));
     }
-    std::unordered_set<int> seen;
+    std::set<std::tuple<int, int, double>> seen;
     for (const SurfacePoint& p : contour.points) {
-        if (!seen.insert(p.a).second) {
-            throw InvalidInput("the contour passes vertex " + std::to_string(p.a) +
+        if (!seen.insert(place_key(p)).second) {
+            throw InvalidInput("the contour passes " + point_name(p) +
                                " twice: give a contour that does not touch itself (a closed one does not repeat its first vertex)");
         }
     }
@@ -75,19 +100,75 @@ std::string obstacle(const Surface& surface, int halfedge) {
     return {};
 }
 
-/// The half-edge from a to b along the contour.
-void check_edge(const Surface& surface, int a, int b) {
+/// What keeps a contour from running along the edge ab, in words; empty: nothing. One usable side is enough: the band then grows
+/// to that side alone.
+std::string obstacle(const Surface& surface, int a, int b) {
     const int forward = surface.find_halfedge(a, b), backward = surface.find_halfedge(b, a);
-    if (forward < 0 && backward < 0) {
-        throw InvalidInput("the contour's vertices " + std::to_string(a) + " and " + std::to_string(b) + " are not joined by an edge");
+    const int halfedge = forward >= 0 ? forward : backward, twin = surface.twin(halfedge);
+    if (twin < 0) return obstacle(surface, twin);
+    const std::string left = obstacle(surface, halfedge), right = obstacle(surface, twin);
+    return left.empty() || right.empty() ? std::string() : left;
+}
+
+/// Where on a triangle's border a point lies: side and share of it, as one number from 0 to 3.
+double border_place(const Surface& surface, int triangle, const SurfacePoint& p) {
+    for (int corner = 0; corner < 3; ++corner) {
+        const int from = surface.triangle(triangle)[corner], to = surface.triangle(triangle)[(corner + 1) % 3];
+        if (p.is_vertex() && p.a == from) return corner;
+        if (!p.is_vertex() && p.a == from && p.b == to) return corner + p.t;
+        if (!p.is_vertex() && p.b == from && p.a == to) return corner + 1.0 - p.t;
     }
-    const int left = forward >= 0 ? forward : surface.twin(backward);
-    const int right = backward >= 0 ? backward : surface.twin(forward);
-    for (const int halfedge : {left, right, left >= 0 ? surface.twin(left) : left}) {
-        if (const std::string why = obstacle(surface, halfedge); !why.empty()) {
-            throw InvalidInput("the contour's edge " + edge_name(a, b) + " lies " + why + ": move the contour off it");
+    return -1.0;
+}
+
+struct Crossing {
+    int triangle;
+    double low, high;  // places on the triangle's border
+    std::size_t segment;
+};
+
+/// Segments inside one triangle cross where their ends alternate on its border.
+void check_crossings(const Contour& contour, std::vector<Crossing>& crossings) {
+    std::ranges::sort(crossings, {}, &Crossing::triangle);
+    for (auto first = crossings.begin(); first != crossings.end();) {
+        const auto end = std::find_if(first, crossings.end(), [&](const Crossing& c) { return c.triangle != first->triangle; });
+        for (auto i = first; i != end; ++i) {
+            for (auto j = first; j != end; ++j) {
+                if (i->low < j->low && j->low < i->high && i->high < j->high) {
+                    throw InvalidInput("the contour crosses itself behind " + point_name(contour.points[i->segment]) +
+                                       " and behind " + point_name(contour.points[j->segment]) +
+                                       ": give a contour that does not touch itself");
+                }
+            }
         }
+        first = end;
     }
+}
+
+void check_edge(const Surface& surface, int a, int b) {
+    if (!surface.real_edge(a, b)) {
+        throw InvalidInput("the contour's vertices " + std::to_string(a) + " and " + std::to_string(b) +
+                           " are not joined by an edge");
+    }
+    const std::string why = obstacle(surface, a, b);
+    if (!why.empty()) throw InvalidInput("the contour's edge " + edge_name(a, b) + " lies " + why + ": move the contour off it");
+}
+
+void check_segment(const Surface& surface, const SurfacePoint& p, const SurfacePoint& q, std::size_t index,
+                   std::vector<Crossing>& crossings) {
+    if (p.is_vertex() && q.is_vertex()) return check_edge(surface, p.a, q.a);
+    const int triangle = triangle_of_segment(surface, p, q);
+    if (triangle < 0) {
+        throw InvalidInput("the contour leaves the surface between " + point_name(p) + " and " + point_name(q) +
+                           ": consecutive points must lie on one triangle");
+    }
+    const std::string why = obstacle(surface, 3 * triangle);
+    if (!why.empty()) {
+        throw InvalidInput("the contour between " + point_name(p) + " and " + point_name(q) + " lies " + why +
+                           ": move the contour off it");
+    }
+    const double from = border_place(surface, triangle, p), to = border_place(surface, triangle, q);
+    crossings.push_back({triangle, std::min(from, to), std::max(from, to), index});
 }
 
 /// Collects polygons ring by ring and numbers their vertices.
@@ -95,7 +176,8 @@ class PatchBuilder {
   public:
     PatchBuilder(const Surface& surface, const Contour& contour) : surface_(surface) {
         patch_.closed = contour.closed;
-        for (const SurfacePoint& p : contour.points) patch_.contour.push_back(local_vertex(p.a));
+        patch_.given = contour;
+        for (const int v : guide_vertices(surface, contour)) patch_.contour.push_back(local_vertex(v));
     }
 
     void add_rings(std::optional<int> rings) {
@@ -164,35 +246,47 @@ class PatchBuilder {
                 patch_.diagonal[h.idx() / 2] = surface_.diagonal(halfedge);
             }
         }
+        mark_borders();
+    }
+
+    void mark_borders() {
+        for (const auto edge : patch_.mesh.edges()) {
+            const int h = std::max(patch_.halfedge[2 * edge.idx()], patch_.halfedge[2 * edge.idx() + 1]);
+            patch_.border_edge.push_back(surface_.twin(h) < 0);
+        }
     }
 
     void measure_distances() {
-        patch_.distance.assign(patch_.vertex.size(), 0.0);
-        std::vector<int> seeds;
-        for (const int v : patch_.contour) seeds.push_back(patch_.vertex[v]);
-        std::size_t left = patch_.vertex.size();
-        settle_outwards(surface_, seeds, [&](int vertex, double distance) {
-            const auto found = local_.find(vertex);
-            if (found == local_.end()) return true;
-            patch_.distance[found->second] = distance;
-            return --left > 0;
-        });
+        const DistanceField field(surface_, patch_.given);
+        for (const int v : patch_.vertex) patch_.distance.push_back(field.at(v));
     }
 };
 
 }  // namespace
 
-void check_contour(const Surface& surface, const Contour& contour) {
-    check_indices(surface, contour);
-    check_simple(contour);
-    const std::size_t count = contour.points.size();
-    for (std::size_t i = 0; i + (contour.closed ? 0 : 1) < count; ++i) {
-        check_edge(surface, contour.points[i].a, contour.points[(i + 1) % count].a);
+Contour checked_contour(const Surface& surface, const Contour& contour) {
+    for (const SurfacePoint& p : contour.points) check_point(surface, p);
+    Contour checked = normalised(contour);
+    check_distinct(checked);
+    std::vector<Crossing> crossings;
+    const std::size_t count = checked.points.size();
+    for (std::size_t i = 0; i + (checked.closed ? 0 : 1) < count; ++i) {
+        check_segment(surface, checked.points[i], checked.points[(i + 1) % count], i, crossings);
     }
+    check_crossings(checked, crossings);
+    return checked;
+}
+
+bool has_neighbour_along_edges(const Surface& surface, const Contour& contour) {
+    const std::vector<int> guide = guide_vertices(surface, contour);
+    const std::size_t count = guide.size();
+    for (std::size_t i = 0; i + (contour.closed ? 0 : 1) < count; ++i) {
+        if (!obstacle(surface, guide[i], guide[(i + 1) % count]).empty()) return false;
+    }
+    return !guide.empty();
 }
 
 Patch make_patch(const Surface& surface, const Contour& contour, std::optional<int> rings) {
-    check_contour(surface, contour);
     PatchBuilder builder(surface, contour);
     builder.add_rings(rings);
     return builder.finish();

@@ -3,18 +3,52 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mrc {
+
+double Objective::value(double F, double L) const { return F / (scale * L) + bias * std::max(L, floor); }
+
+// h(L) = scale L (value - bias max(L, floor))
+double Objective::slope(double value, double L) const { return scale * (value - bias * (L > floor ? 2.0 * L : floor)); }
+
+double Objective::peak(double value, double lambda) const {
+    const double beyond = 0.5 * (scale * value - lambda) / (scale * bias);  // where the parabola has slope lambda
+    return std::max(beyond, floor);
+}
+
+double Objective::threshold(double value, double lambda) const {
+    if (bias == 0.0) return scale * value > lambda ? std::numeric_limits<double>::infinity() : 0.0;
+    const double L = peak(value, lambda);
+    return std::max(0.0, scale * L * (value - bias * L) - lambda * L);
+}
+
+double Objective::least_on_line(double lambda, double height, double shortest) const {
+    double L = shortest;
+    if (height > 0.0) L = std::max({L, floor, std::sqrt(height / (scale * bias))});
+    return value(lambda * L + height, L);
+}
+
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// One relaxation: the least f - lambda g from a set of sources to every node.
+struct Pass {
+    double lambda = 0.0;
+    std::vector<double> value;
+    std::vector<int> last_arc;  // -1 at a source
+    std::vector<int> origin;    // the source it came from
+};
+
 class Search {
   public:
     Search(const WeightedGraph& graph, const RatioOptions& options)
-        : graph_(graph), value_(graph.node_count()), last_arc_(graph.node_count()), origin_(graph.node_count()), lambda_(options.below) {
+        : graph_(graph), objective_(options.objective), most_labels_(options.most_labels) {
         start_.assign(graph.node_count(), -1);
-        if (lambda_ == infinity) lambda_ = above_all();
+        counted_ = std::ranges::all_of(graph.g, [](double g) { return g == 1.0; });
+        const Terminal guess = options.guess.value_or(Terminal{-1, 0.0, 1.0});
+        lambda_ = objective_.slope(objective_.value(guess.f, guess.g), guess.g);
     }
 
     RatioResult run() {
@@ -26,38 +60,39 @@ class Search {
             std::vector<int> set = std::move(open.back());
             open.pop_back();
             set = descend(std::move(set));
-            // A pair alone is always decided, so what is split here gets smaller.
+            if (set.empty()) continue;
+            if (set.size() == 1 || !graph_.matched) {
+                alone_ ? search_above_hull(set) : open.push_back(std::move(set));
+                continue;
+            }
             const auto middle = set.begin() + static_cast<std::ptrdiff_t>(set.size() / 2);
-            if (middle != set.end()) open.emplace_back(middle, set.end());
-            if (middle != set.begin()) open.emplace_back(set.begin(), middle);
+            open.emplace_back(middle, set.end());
+            open.emplace_back(set.begin(), middle);
         }
-        result_.lower_bound = lambda_;
+        result_.lower_bound = std::min(result_.objective, unresolved_);
         return std::move(result_);
     }
 
   private:
     const WeightedGraph& graph_;
-    std::vector<double> value_;
-    std::vector<int> last_arc_, origin_, start_;
+    const Objective objective_;
+    const int most_labels_;
+    std::vector<int> start_;
+    Pass pass_;
     double lambda_;
+    bool counted_;                  // every arc has length 1, so that L is a count (appendix A)
+    bool alone_ = false;            // the last pass was from one pair alone, so that its bounds are its own paths
+    double unresolved_ = infinity;  // least bound of the pairs given up
     RatioResult result_;
 
-    /// A lambda above every path's ratio: at it, every path is negative.
-    double above_all() const {
-        double most = 0.0;
-        for (int a = 0; a < graph_.arc_count(); ++a) most = std::max(most, graph_.f[a] / graph_.g[a]);
-        for (const auto* ends : {&graph_.sources, &graph_.destinations}) {
-            for (const Terminal& t : *ends) most = std::max(most, t.g > 0.0 ? t.f / t.g : 0.0);
-        }
-        return most + 1.0 + std::abs(most);
-    }
+    /// What a pair's F - lambda L must be below to matter.
+    double threshold(double lambda) const { return result_.found ? objective_.threshold(result_.objective, lambda) : infinity; }
 
-    double weight(double f, double g) const { return f - lambda_ * g; }
-
-    /// Lowers lambda as long as the set shows a better path of one of its own pairs; gives the pairs that are still undecided.
+    /// Improves the best as long as the set shows a better path of one of its own pairs; gives the pairs still undecided.
     std::vector<int> descend(std::vector<int> set) {
         for (;;) {
             relax(set);
+            alone_ = set.size() == 1 || !graph_.matched;
             std::vector<int> undecided;
             const bool improved = collect(set, undecided);
             if (undecided.empty() || !improved) return undecided;
@@ -65,82 +100,251 @@ class Search {
         }
     }
 
-    /// Keeps the pairs whose bound is negative, and takes the best path among those that end where they began.
+    double bound_at(const Pass& pass, int destination) const {
+        const Terminal& end = graph_.destinations[destination];
+        return pass.value[end.node] + (end.f - pass.lambda * end.g);
+    }
+
+    /// Rounding may leave a bound below its threshold by a hair.
+    static bool beats(double bound, double threshold) {
+        return threshold == infinity ? bound < infinity : bound < threshold - 1e-14 * (1.0 + std::abs(threshold));
+    }
+
+    /// Keeps the pairs whose bound is below the threshold, and takes the best path among those that end where they began.
     bool collect(const std::vector<int>& set, std::vector<int>& undecided) {
-        bool improved = false;
-        const double before = lambda_;
+        const double before = threshold(pass_.lambda);
+        bool improved = false, open = false;
         const auto consider = [&](int destination) {
-            const Terminal& end = graph_.destinations[destination];
-            if (value_[end.node] == infinity || value_[end.node] + (end.f - before * end.g) >= 0.0) return;
-            if (graph_.matched && origin_[end.node] != destination) {
-                undecided.push_back(destination);
-                return;
-            }
-            improved |= take(end);
-            // The pair may have a better path still at a lower lambda. At the same lambda its own path shows that the bound is
-            // negative by rounding alone.
-            if (improved) undecided.push_back(destination);
+            const double bound = bound_at(pass_, destination);
+            if (bound == infinity || !beats(bound, before)) return false;
+            const bool own = !graph_.matched || pass_.origin[graph_.destinations[destination].node] == destination;
+            const bool taken = own && take(graph_.destinations[destination]);
+            improved |= taken;
+            // For the plain ratio a pair's own path at this lambda decides it, unless lambda has fallen since.
+            return !own || improved || objective_.bias > 0.0;
         };
         if (graph_.matched) {
-            for (const int i : set) consider(i);
+            for (const int i : set) {
+                if (consider(i)) undecided.push_back(i);
+            }
         } else {
-            for (std::size_t i = 0; i < graph_.destinations.size(); ++i) consider(static_cast<int>(i));
-            undecided = improved ? set : std::vector<int>{};
+            for (std::size_t i = 0; i < graph_.destinations.size(); ++i) open |= consider(static_cast<int>(i));
+            if (open) undecided = set;
         }
         return improved;
     }
 
-    /// Reads the path that ends here; keeps it where its ratio is below lambda.
+    /// Reads the path that ends here in the last pass; keeps it where it is the best so far.
     bool take(const Terminal& end) {
         std::vector<int> nodes{end.node};
         double f = end.f, g = end.g;
-        for (int a = last_arc_[end.node]; a >= 0; a = last_arc_[nodes.back()]) {
+        for (int a = pass_.last_arc[end.node]; a >= 0; a = pass_.last_arc[nodes.back()]) {
             f += graph_.f[a];
             g += graph_.g[a];
             nodes.push_back(graph_.from[a]);
         }
-        const Terminal& source = graph_.sources[origin_[end.node]];
-        f += source.f;
-        g += source.g;
-        const double ratio = f / g;
-        if (!(ratio < lambda_)) return false;
+        const Terminal& source = graph_.sources[pass_.origin[end.node]];
         std::ranges::reverse(nodes);
+        return offer(std::move(nodes), f + source.f, g + source.g);
+    }
+
+    bool offer(std::vector<int> nodes, double f, double g) {
+        const double value = objective_.value(f, g);
+        if (result_.found && !(value < result_.objective)) return false;
+        result_.found = true;
         result_.nodes = std::move(nodes);
         result_.numerator = f;
         result_.length = g;
-        result_.ratio = lambda_ = ratio;
-        result_.found = true;
+        result_.objective = value;
+        lambda_ = objective_.slope(value, g);
         ++result_.steps;
         return true;
     }
 
-    /// One pass over the graph in topological order (Bellman and Ford's relaxation is linear there) from a set of sources.
-    void relax(const std::vector<int>& set) {
+    void relax(const std::vector<int>& set) { relax(set, lambda_, pass_); }
+
+    /// One pass in topological order (Bellman and Ford's relaxation is linear there) from a set of sources.
+    void relax(const std::vector<int>& set, double lambda, Pass& pass) {
         ++result_.passes;
+        pass.lambda = lambda;
+        pass.value.resize(graph_.node_count());
+        pass.last_arc.resize(graph_.node_count());
+        pass.origin.resize(graph_.node_count());
+        const auto value = [&](int i) { return graph_.sources[i].f - lambda * graph_.sources[i].g; };
         for (const int i : set) {
-            const int node = graph_.sources[i].node;
-            if (start_[node] < 0 || source_value(i) < source_value(start_[node])) start_[node] = i;
+            int& start = start_[graph_.sources[i].node];
+            if (start < 0 || value(i) < value(start)) start = i;
         }
-        for (int n = 0; n < graph_.node_count(); ++n) relax_node(n);
+        for (int n = 0; n < graph_.node_count(); ++n) relax_node(n, pass, start_[n] >= 0 ? value(start_[n]) : infinity);
         for (const int i : set) start_[graph_.sources[i].node] = -1;
     }
 
-    double source_value(int source) const { return weight(graph_.sources[source].f, graph_.sources[source].g); }
-
-    void relax_node(int n) {
-        double best = infinity;
-        int arc = -1, origin = start_[n];
-        if (origin >= 0) best = source_value(origin);
+    void relax_node(int n, Pass& pass, double best) const {
+        int arc = -1;
         for (int a = graph_.first_arc[n]; a < graph_.first_arc[n + 1]; ++a) {
-            const double reached = value_[graph_.from[a]] + weight(graph_.f[a], graph_.g[a]);
+            const double reached = pass.value[graph_.from[a]] + (graph_.f[a] - pass.lambda * graph_.g[a]);
             if (reached < best) {
                 best = reached;
                 arc = a;
             }
         }
-        value_[n] = best;
-        last_arc_[n] = arc;
-        origin_[n] = arc >= 0 ? origin_[graph_.from[arc]] : origin;
+        pass.value[n] = best;
+        pass.last_arc[n] = arc;
+        pass.origin[n] = arc >= 0 ? pass.origin[graph_.from[arc]] : start_[n];
+    }
+
+    // ---- above the lower hull: only where there is a bias ----
+
+    std::vector<int> ends_of(const std::vector<int>& set) const {
+        if (graph_.matched) return set;
+        std::vector<int> all(graph_.destinations.size());
+        for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
+        return all;
+    }
+
+    /// Decides one pair: more lambdas, which cut off what they can of the lens between the hull and the best; then labels.
+    void search_above_hull(const std::vector<int>& set) {
+        std::vector<Pass> passes{pass_};
+        for (const double side : {-1.0, 1.0}) {
+            for (double step = 0.5; step < 8.0; step *= 2.0) {
+                Pass pass;
+                relax(set, lambda_ + side * step * lens_slope(), pass);
+                std::swap(pass, pass_);
+                for (const int end : ends_of(set)) {
+                    if (bound_at(pass_, end) < infinity) take(graph_.destinations[end]);
+                }
+                std::swap(pass, pass_);
+                passes.push_back(std::move(pass));
+            }
+        }
+        for (const int i : set) start_[graph_.sources[i].node] = i;
+        for (const int end : ends_of(set)) counted_ ? search_counts(passes, end) : search_labels(passes, end);
+        for (const int i : set) start_[graph_.sources[i].node] = -1;
+    }
+
+    /// How fast the slope of h changes over the length of the best.
+    double lens_slope() const {
+        return 2.0 * objective_.scale * objective_.bias * std::max(result_.length, objective_.floor) * 0.1;
+    }
+
+    struct Line {
+        double slope, height;
+    };
+    mutable std::vector<Line> lines_;  // scratch of one label
+
+    struct Label {
+        int node, arc, before;  // the path goes on through `arc` and then as label `before` does
+        double f, g;
+    };
+
+    /// Walks back from a destination over all partial paths that every pass's bound allows to beat the best.
+    void search_labels(const std::vector<Pass>& passes, int destination) {
+        const Terminal& end = graph_.destinations[destination];
+        std::vector<Label> labels{{end.node, -1, -1, end.f, end.g}};
+        std::vector<int> stack{0};
+        if (!worth_while(passes, labels[0])) return;
+        const int most = most_labels_ - result_.labels;
+        while (!stack.empty()) {
+            const int index = stack.back();
+            stack.pop_back();
+            const Label label = labels[index];
+            if (!worth_while(passes, label)) continue;
+            if (start_[label.node] >= 0) finish_label(labels, index);
+            for (int a = graph_.first_arc[label.node]; a < graph_.first_arc[label.node + 1]; ++a) {
+                const Label next{graph_.from[a], a, index, label.f + graph_.f[a], label.g + graph_.g[a]};
+                if (!worth_while(passes, next)) continue;
+                if (static_cast<int>(labels.size()) >= most) return give_up(passes, destination);
+                stack.push_back(static_cast<int>(labels.size()));
+                labels.push_back(next);
+            }
+        }
+        result_.labels += static_cast<int>(labels.size());
+    }
+
+    /// The same where lengths are counts: of the partial paths from a node with the same count only the best matters, which is Karp's
+    /// recurrence (A.3), kept to what the passes allow.
+    void search_counts(const std::vector<Pass>& passes, int destination) {
+        const Terminal& end = graph_.destinations[destination];
+        std::vector<Label> labels{{end.node, -1, -1, end.f, end.g}};
+        std::vector<std::vector<int>> at(graph_.node_count());
+        at[end.node].push_back(0);
+        for (int n = end.node; n >= 0; --n) {
+            for (const int index : at[n]) {
+                const Label label = labels[index];
+                if (!worth_while(passes, label)) continue;
+                if (start_[n] >= 0) finish_label(labels, index);
+                for (int a = graph_.first_arc[n]; a < graph_.first_arc[n + 1]; ++a) {
+                    keep_best({graph_.from[a], a, index, label.f + graph_.f[a], label.g + graph_.g[a]}, labels, at[graph_.from[a]]);
+                }
+            }
+        }
+        result_.labels += static_cast<int>(labels.size());
+    }
+
+    static void keep_best(const Label& label, std::vector<Label>& labels, std::vector<int>& here) {
+        const auto same = std::ranges::find_if(here, [&](int i) { return labels[i].g == label.g; });
+        if (same == here.end()) {
+            here.push_back(static_cast<int>(labels.size()));
+            labels.push_back(label);
+        } else if (label.f < labels[*same].f) {
+            labels[*same] = label;
+        }
+    }
+
+    /// True where some path on from here may beat the best: where a part of h lies above all passes' lines.
+    bool worth_while(const std::vector<Pass>& passes, const Label& label) const {
+        lines_.clear();
+        for (const Pass& pass : passes) {
+            const double bound = pass.value[label.node] + (label.f - pass.lambda * label.g);
+            if (!beats(bound, threshold(pass.lambda))) return false;
+            lines_.push_back({pass.lambda, bound});
+        }
+        return lens_is_open();
+    }
+
+    /// The lens between h and the lines, which is convex, is open where it is at the peak above a line or where two lines meet.
+    bool lens_is_open() const {
+        if (!result_.found) return true;
+        const auto open_at = [&](double L) {
+            const double h = objective_.scale * L * (result_.objective - objective_.bias * std::max(L, objective_.floor));
+            return L > 0.0 && std::ranges::all_of(lines_, [&](const Line& line) { return line.slope * L + line.height < h; });
+        };
+        for (std::size_t i = 0; i < lines_.size(); ++i) {
+            if (open_at(objective_.peak(result_.objective, lines_[i].slope))) return true;
+            for (std::size_t j = 0; j < i; ++j) {
+                if (open_at((lines_[i].height - lines_[j].height) / (lines_[j].slope - lines_[i].slope))) return true;
+            }
+        }
+        return objective_.floor > 0.0 && open_at(objective_.floor);
+    }
+
+    void finish_label(const std::vector<Label>& labels, int index) {
+        const Label& label = labels[index];
+        const Terminal& source = graph_.sources[start_[label.node]];
+        std::vector<int> nodes;
+        for (int i = index; i >= 0; i = labels[i].before) nodes.push_back(labels[i].node);
+        offer(std::move(nodes), label.f + source.f, label.g + source.g);
+    }
+
+    /// The pair stays open: its bound is the best that a path on the passes' lines, no shorter than the shortest, could reach.
+    void give_up(const std::vector<Pass>& passes, int destination) {
+        result_.labels = most_labels_;
+        const double shortest = shortest_length(destination);
+        double bound = -infinity;
+        for (const Pass& pass : passes)
+            bound = std::max(bound, objective_.least_on_line(pass.lambda, bound_at(pass, destination), shortest));
+        unresolved_ = std::min(unresolved_, bound);
+    }
+
+    /// The least sum of g from the sources that are set to a destination.
+    double shortest_length(int destination) const {
+        std::vector<double> length(graph_.node_count(), infinity);
+        for (int n = 0; n < graph_.node_count(); ++n) {
+            if (start_[n] >= 0) length[n] = graph_.sources[start_[n]].g;
+            for (int a = graph_.first_arc[n]; a < graph_.first_arc[n + 1]; ++a)
+                length[n] = std::min(length[n], length[graph_.from[a]] + graph_.g[a]);
+        }
+        return length[graph_.destinations[destination].node] + graph_.destinations[destination].g;
     }
 };
 

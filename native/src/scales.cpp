@@ -2,6 +2,7 @@
 #include <mrc/scales.h>
 
 #include <mrc/distances.h>
+#include <mrc/energy.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +20,14 @@ std::vector<int> contour_ends(const Contour& contour) {
         if (!p.is_vertex()) vertices.push_back(p.b);
     }
     return vertices;
+}
+
+/// The ceil(q n)-th smallest of n values.
+double quantile(std::vector<double>& values, double q) {
+    const auto place = static_cast<std::size_t>(std::ceil(q * static_cast<double>(values.size()) - 1e-12));
+    const auto nth = values.begin() + static_cast<std::ptrdiff_t>(std::clamp<std::size_t>(place, 1, values.size()) - 1);
+    std::ranges::nth_element(values, nth);
+    return *nth;
 }
 
 }  // namespace
@@ -49,21 +58,26 @@ double mean_edge_length(const Surface& surface, const Contour& contour) {
     return sum / static_cast<double>(lengths.size());
 }
 
-Scales contour_scales(const Surface& surface, const CurvatureField& field, double h, const Contour& contour, const Options& options) {
+Scales contour_scales(const Surface& surface, const CurvatureField& field, double h, const Contour& contour,
+                      const Options& options) {
     double weighted = 0.0, area = 0.0;
+    std::vector<double> features;
     for (const int v : vertices_within(surface, contour_ends(contour), rings)) {
         const VertexCurvature& c = field.at(v);
         const double share = vertex_area(surface, v);
-        weighted += share * std::abs(options.feature == Feature::ridge ? c.kappa_max : c.kappa_min);
+        const double kappa = options.feature == Feature::ridge ? -c.kappa_max : c.kappa_min;
+        weighted += share * std::abs(kappa);
         area += share;
+        if (kappa < 0.0) features.push_back(-kappa);
     }
     Scales scales;
     scales.h = h;
     scales.L0 = contour_length(surface, contour);
     if (!(scales.L0 > 0.0)) throw InvalidInput("the contour has length 0: all its vertices lie at one point");
     scales.K = std::max(area > 0.0 ? weighted / area : 0.0, 0.01 / scales.L0);  // so that flat bands work
+    if (options.feature_clamp && !features.empty()) scales.clamp = quantile(features, *options.feature_clamp);
     scales.kappa_0 = options.kappa0_factor * scales.K;
-    scales.n0 = static_cast<int>(contour.points.size()) - (contour.closed ? 0 : 1);
+    scales.n0 = static_cast<int>(expressed(contour, options.refinement).points.size()) - (contour.closed ? 0 : 1);
     scales.given = contour;
     return scales;
 }

@@ -59,7 +59,7 @@ Curve start_line(const Patch& patch, const Band& band, const Curve& right, const
 }
 
 /// The band cut open along the start line. A flow's values hold in the opened band; a face behind the line sees the line's own
-/// vertices one turn further on.
+/// vertices one turn further on. The band of an open curve is open as it is.
 struct Cut {
     Curve line;                ///< from right to left
     std::vector<char> behind;  ///< of each half-edge in the band: true where it starts on the line and its face lies behind it
@@ -80,8 +80,9 @@ void mark_behind(const Patch& patch, const Band& band, Halfedge left_border, Cut
 
 Cut cut_open(const Patch& patch, const Band& band, const std::vector<Curve>& strips) {
     const PatchMesh& mesh = patch.mesh;
-    Cut cut{start_line(patch, band, strips.front(), strips.back()), std::vector<char>(mesh.n_halfedges(), 0),
-            std::vector<int>(mesh.n_halfedges(), 0)};
+    Cut cut{{}, std::vector<char>(mesh.n_halfedges(), 0), std::vector<int>(mesh.n_halfedges(), 0)};
+    if (!patch.closed) return cut;
+    cut.line = start_line(patch, band, strips.front(), strips.back());
     const Curve& left = strips.back();
     const auto end = std::find(left.begin(), left.end(), cut.line.back());
     const Halfedge border = halfedge(mesh, *end, end == left.begin() ? left.back() : *(end - 1));
@@ -99,13 +100,14 @@ Cut cut_open(const Patch& patch, const Band& band, const std::vector<Curve>& str
     return cut;
 }
 
-/// A strip boundary unrolled: `k` and `k + size()` are the same vertex, one turn apart.
+/// A strip boundary unrolled: `k` and `k + size()` are the same vertex, one turn apart. One of an open curve has one turn only.
 struct Strip {
     Curve vertices;
     std::vector<int> lap;      ///< of each vertex: crossings of the start line since the first one
     std::vector<double> arc;   ///< of each vertex: length from the first one
     std::vector<double> flow;  ///< of each vertex, as it rises along the strip
     double length = 0.0;
+    bool closed = true;
 
     int size() const { return static_cast<int>(vertices.size()); }
     int turn(int k) const { return (k >= 0 ? k : k - size() + 1) / size(); }
@@ -181,14 +183,16 @@ class Profile {
 
 class StripFlow {
   public:
-    StripFlow(const Patch& patch, const Band& band, FlowKind kind)
+    StripFlow(const Patch& patch, const Band& band, FlowKind kind, const std::vector<double>& fixed)
         : patch_(patch),
           mesh_(patch.mesh),
           band_(band),
           kind_(kind),
+          fixed_(fixed),
           strips_(strip_boundaries(patch, band)),
           cut_(cut_open(patch, band, strips_)),
           value_(mesh_.n_vertices(), 0.0),
+          known_(mesh_.n_vertices(), 0),
           known_index_(mesh_.n_vertices(), off_strip),
           next_index_(mesh_.n_vertices(), off_strip) {}
 
@@ -197,6 +201,7 @@ class StripFlow {
         const Strip contour = measured_contour(*middle);
         spread(contour, std::vector<Curve>(middle + 1, strips_.end()));
         spread(contour, std::vector<Curve>(std::make_reverse_iterator(middle), strips_.rend()));
+        for (size_t i = band_.polygons.size() - band_.end_polygons; i < band_.polygons.size(); ++i) fill(band_.polygons[i]);
         return {std::move(value_), cut_.jump};
     }
 
@@ -205,29 +210,49 @@ class StripFlow {
     const PatchMesh& mesh_;
     const Band& band_;
     const FlowKind kind_;
+    const std::vector<double>& fixed_;  // of each vertex: 0 or 1 at the ends of an open curve, below 0 elsewhere
     const std::vector<Curve> strips_;
     const Cut cut_;
     std::vector<double> value_;
+    std::vector<char> known_;  // of each vertex: true where `value_` is settled
     // Of each vertex: its place on the known and on the next strip, as seen in the band cut open, or `off_strip`.
     std::vector<int> known_index_, next_index_;
 
     const Point& point(int vertex) const { return mesh_.point(Vertex(vertex)); }
 
+    void settle(int vertex, double value) {
+        value_[vertex] = value;
+        known_[vertex] = 1;
+    }
+
     Strip unroll(const Curve& curve) const {
-        Strip strip{curve, {0}, {0.0}, {}, 0.0};
+        Strip strip{curve, {0}, {0.0}, {}, 0.0, patch_.closed};
         std::vector<Halfedge> edges;
-        for (size_t i = 0; i < curve.size(); ++i) edges.push_back(halfedge(mesh_, curve[i], curve[(i + 1) % curve.size()]));
+        for (size_t i = 0; i + !strip.closed < curve.size(); ++i)
+            edges.push_back(halfedge(mesh_, curve[i], curve[(i + 1) % curve.size()]));
+        const auto [first, last] = strip.closed ? std::pair<size_t, size_t>(0, edges.size()) : rising_stretch(curve);
         double total = 0.0;
-        for (const Halfedge h : edges) total += mesh_.calc_edge_length(h);
-        const double least = total > 0.0 ? least_edge * total / static_cast<double>(edges.size()) : 1.0;
-        for (const Halfedge h : edges) {
-            strip.lap.push_back(strip.lap.back() + cut_.jump[h.idx()]);
-            strip.arc.push_back(strip.arc.back() + std::max(least, mesh_.calc_edge_length(h)));
+        for (size_t i = first; i < last; ++i) total += mesh_.calc_edge_length(edges[i]);
+        const double least = total > 0.0 ? least_edge * total / static_cast<double>(last - first) : 1.0;
+        for (size_t i = 0; i < edges.size(); ++i) {
+            const bool rises = first <= i && i < last;
+            strip.lap.push_back(strip.lap.back() + cut_.jump[edges[i].idx()]);
+            strip.arc.push_back(strip.arc.back() + (rises ? std::max(least, mesh_.calc_edge_length(edges[i])) : 0.0));
         }
         strip.length = strip.arc.back();
-        strip.lap.pop_back();
-        strip.arc.pop_back();
+        strip.lap.resize(curve.size());
+        strip.arc.resize(curve.size());
         return strip;
+    }
+
+    /// Of an open curve's strip: the last vertex held at 0 and the first one after it held at 1.
+    std::pair<size_t, size_t> rising_stretch(const Curve& curve) const {
+        const auto held_at = [&](int v, double end) { return fixed_[v] == end || (known_[v] && value_[v] == end); };
+        size_t first = curve.size() - 2;
+        while (!held_at(curve[first], 0.0)) --first;
+        size_t last = first + 1;
+        while (!held_at(curve[last], 1.0)) ++last;
+        return {first, last};
     }
 
     void set_index(const Strip& strip, std::vector<int>& index) const {
@@ -247,10 +272,10 @@ class StripFlow {
     Strip measured_contour(const Curve& curve) {
         Strip contour = unroll(curve);
         set_index(contour, known_index_);
-        const double start = start_arc(contour, known_index_);
+        const double start = contour.closed ? start_arc(contour, known_index_) : 0.0;
         for (int k = 0; k < contour.size(); ++k) {
             contour.flow.push_back((contour.arc[k] - start) / contour.length);
-            value_[contour.vertices[k]] = contour.flow[k] - contour.lap[k];
+            settle(contour.vertices[k], contour.flow[k] - contour.lap[k]);
         }
         clear_index(contour, known_index_);
         return contour;
@@ -275,9 +300,31 @@ class StripFlow {
         for (int k = 0; k < next.size(); ++k) {
             const int v = next.vertices[k];
             const bool shared = known_index_[v] != off_strip;
-            if (!shared) value_[v] = profile.at(next.arc[k]) - next.lap[k];
+            if (!shared) settle(v, profile.at(next.arc[k]) - next.lap[k]);
             next.flow.push_back(value_[v] + next.lap[k]);
         }
+    }
+
+    /// Settles the vertices of an end polygon that no strip holds, evenly between the two beside them.
+    void fill(int polygon) {
+        for (int f = patch_.first_face[polygon]; f < patch_.first_face[polygon + 1]; ++f) {
+            for (const auto h : mesh_.fh_range(PatchMesh::FaceHandle(f))) {
+                if (patch_.diagonal_halfedge(h.idx()) || !known_[h.from().idx()]) continue;
+                Curve between;
+                Halfedge side = h;
+                for (; !known_[mesh_.to_vertex_handle(side).idx()]; side = next_side(side))
+                    between.push_back(mesh_.to_vertex_handle(side).idx());
+                const double begin = value_[h.from().idx()], end = value_[mesh_.to_vertex_handle(side).idx()];
+                const double step = (end - begin) / (static_cast<double>(between.size()) + 1.0);
+                for (size_t i = 0; i < between.size(); ++i) settle(between[i], begin + step * (static_cast<double>(i) + 1.0));
+            }
+        }
+    }
+
+    Halfedge next_side(Halfedge h) const {
+        h = mesh_.next_halfedge_handle(h);
+        while (patch_.diagonal_halfedge(h.idx())) h = mesh_.next_halfedge_handle(mesh_.opposite_halfedge_handle(h));
+        return h;
     }
 
     /// Shared vertices first, then the shorter of the gates that cross each other.
@@ -289,7 +336,7 @@ class StripFlow {
         }
         std::vector<Gate> gates;
         if (kind_ == FlowKind::gates) gates = closest_pairs(known, next);
-        if (gates.empty()) gates.push_back({start_arc(next, next_index_), 0.0, 0.0});
+        if (gates.empty() && next.closed) gates.push_back({start_arc(next, next_index_), 0.0, 0.0});
         std::ranges::stable_sort(gates, {}, &Gate::length);
         Profile profile(shared.empty() ? gates.front() : shared.front(), next.length);
         for (const Gate& gate : shared) profile.insert(gate);
@@ -375,16 +422,17 @@ class StripFlow {
         };
         for (int k = first; k < last; ++k) try_edge(k);
         const double reach = 2.0 * best.distance;
-        for (int k = last; k < first + strip.size() && strip.arc_at(k) - strip.arc_at(last) < reach; ++k) try_edge(k);
-        for (int k = first - 1; k >= last - strip.size() && strip.arc_at(first) - strip.arc_at(k + 1) < reach; --k) try_edge(k);
+        const int end = strip.closed ? first + strip.size() : strip.size() - 1, begin = strip.closed ? last - strip.size() : 0;
+        for (int k = last; k < end && strip.arc_at(k) - strip.arc_at(last) < reach; ++k) try_edge(k);
+        for (int k = first - 1; k >= begin && strip.arc_at(first) - strip.arc_at(k + 1) < reach; --k) try_edge(k);
         return best;
     }
 };
 
 }  // namespace
 
-Flow strip_flow(const Surface&, const Patch& patch, const Band& band, const Options& options) {
-    return StripFlow(patch, band, options.flow).run();
+Flow strip_flow(const Patch& patch, const Band& band, FlowKind kind, const std::vector<double>& fixed) {
+    return StripFlow(patch, band, kind, fixed).run();
 }
 
 }  // namespace mrc

@@ -18,7 +18,7 @@ PatchMesh::HalfedgeHandle opposite(int h) { return PatchMesh::HalfedgeHandle(h ^
 /// polygon meets what it met when the band grew, so every layer ends in a simple curve, and that curve encloses the one before;
 /// by the second every vertex is on such a curve. A new round opens a new layer, so the boundaries of the rounds are among them.
 /// An edge cannot cross a curve of edges and no vertex lies between two neighbouring strips: hence the ends of every edge are on
-/// the same strip or on neighbouring ones.
+/// the same strip or on neighbouring ones. Around an open curve all strips run from its first vertex to its last.
 class SideReplay {
   public:
     /// `curves`: the boundary after each round, running so that the side lies to the left; the first is the contour.
@@ -32,7 +32,8 @@ class SideReplay {
 
   private:
     const Patch& patch_;
-    std::vector<int> next_;                     // of each vertex of the contour: the vertex after it
+    const int first_;                           // vertex of the contour
+    std::vector<int> next_;                     // of each vertex of the contour: the vertex after it, or -1
     std::vector<int> last_round_;               // of each half-edge: the last round whose boundary it runs along, or -1
     std::vector<int> polygon_layer_;            // 0: not entered
     std::vector<int> arrival_;                  // of each vertex: the layer in which it came, 0 on the contour, -1 before it came
@@ -52,6 +53,7 @@ class SideReplay {
 
 SideReplay::SideReplay(const Patch& patch, const std::vector<Curve>& curves)
     : patch_(patch),
+      first_(curves[0].front()),
       next_(patch.mesh.n_vertices(), -1),
       last_round_(patch.mesh.n_halfedges(), -1),
       polygon_layer_(patch.polygon_count(), 0),
@@ -59,14 +61,13 @@ SideReplay::SideReplay(const Patch& patch, const std::vector<Curve>& curves)
       latest_(patch.mesh.n_vertices(), 0),
       stays_(patch.mesh.n_vertices(), -1),
       new_border_(1) {
+    for (const int v : curves[0]) arrival_[v] = 0;
     for (size_t r = 0; r < curves.size(); ++r) {
         const Curve& curve = curves[r];
-        for (size_t i = 0; i < curve.size(); ++i) {
-            const PatchMesh::VertexHandle a(curve[i]), b(curve[(i + 1) % curve.size()]);
+        for (size_t i = patch.closed ? 0 : 1; i < curve.size(); ++i) {
+            const PatchMesh::VertexHandle a(curve[i > 0 ? i - 1 : curve.size() - 1]), b(curve[i]);
             last_round_[patch.mesh.find_halfedge(a, b).idx()] = static_cast<int>(r);
-            if (r > 0) continue;
-            next_[a.idx()] = b.idx();
-            arrival_[a.idx()] = 0;
+            if (r == 0) next_[a.idx()] = b.idx();
         }
     }
 }
@@ -116,7 +117,7 @@ void SideReplay::enter(int polygon) {
 
 Curve SideReplay::walk(const std::vector<int>& next, int start) const {
     Curve curve;
-    for (int v = start; curve.empty() || v != start; v = next[v]) curve.push_back(v);
+    for (int v = start; v >= 0 && (curve.empty() || v != start); v = next[v]) curve.push_back(v);
     return curve;
 }
 
@@ -125,14 +126,14 @@ std::vector<Curve> SideReplay::strips() const {
     std::vector<int> next = next_;
     for (size_t layer = 1; layer < new_border_.size(); ++layer) {
         for (const int h : new_border_[layer]) next[to(h)] = from(h);
-        result.push_back(walk(next, to(new_border_[layer].back())));
+        result.push_back(walk(next, patch_.closed ? to(new_border_[layer].back()) : first_));
     }
     return result;
 }
 
 std::vector<Curve> side_strips(const Patch& patch, const Band& band, const std::vector<Curve>& curves) {
     SideReplay replay(patch, curves);
-    for (const int polygon : band.polygons) replay.enter(polygon);
+    for (size_t i = 0; i + band.end_polygons < band.polygons.size(); ++i) replay.enter(band.polygons[i]);
     return replay.strips();
 }
 

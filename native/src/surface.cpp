@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <mrc/surface.h>
 
+#include "components.h"
+
 #include "triangulate.h"
 
 #include <algorithm>
@@ -208,6 +210,7 @@ Surface::Surface(const SurfaceArrays& arrays) {
     triangulate(arrays);
     connect();
     classify_vertices();
+    components_ = std::make_shared<Components>();
 }
 
 void Surface::copy_and_validate(const SurfaceArrays& arrays) {

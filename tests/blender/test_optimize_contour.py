@@ -85,7 +85,7 @@ def test_a_flag_along_the_given_loop_moves_unless_it_is_kept(flag, keep_old):
 
 def test_the_whole_surface_reaches_farther_than_the_width():
     obj = start(loop=rough_loop(2))
-    run(width=1, whole_surface=True)
+    run(width=1, whole_surface=True, anchor=0.0)
     assert flagged(obj, "select") == GROOVE_EDGES
 
 
@@ -118,7 +118,7 @@ def test_selected_faces_are_those_whose_edges_are_all_selected():
     face = [5 * SEGMENTS, 5 * SEGMENTS + 1, 6 * SEGMENTS + 1, 6 * SEGMENTS]
     obj = start(loop=face)
     assert sum(face.select for face in bmesh.from_edit_mesh(obj.data).faces) == 1
-    run()
+    run(min_salience=0.0, length_bias=0.0, anchor=0.0)
     assert flagged(obj, "select") != edge_set(face)
     for face in bmesh.from_edit_mesh(obj.data).faces:
         assert face.select == all(edge.select for edge in face.edges)

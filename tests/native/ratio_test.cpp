@@ -49,16 +49,17 @@ WeightedGraph random_graph(unsigned seed, bool matched, int width = 5, int layer
     return graph;
 }
 
-/// The least ratio by walking every path backwards from its destination.
-double brute_force(const WeightedGraph& graph) {
+/// The least objective by walking every path backwards from its destination.
+double brute_force(const WeightedGraph& graph, const mrc::Objective& objective = {}) {
     double best = std::numeric_limits<double>::infinity();
     for (std::size_t j = 0; j < graph.destinations.size(); ++j) {
         const std::function<void(int, double, double)> walk = [&](int node, double f, double g) {
             for (std::size_t i = 0; i < graph.sources.size(); ++i) {
                 if (graph.sources[i].node != node || (graph.matched && i != j)) continue;
-                best = std::min(best, (f + graph.sources[i].f) / (g + graph.sources[i].g));
+                best = std::min(best, objective.value(f + graph.sources[i].f, g + graph.sources[i].g));
             }
-            for (int a = graph.first_arc[node]; a < graph.first_arc[node + 1]; ++a) walk(graph.from[a], f + graph.f[a], g + graph.g[a]);
+            for (int a = graph.first_arc[node]; a < graph.first_arc[node + 1]; ++a)
+                walk(graph.from[a], f + graph.f[a], g + graph.g[a]);
         };
         walk(graph.destinations[j].node, graph.destinations[j].f, graph.destinations[j].g);
     }
@@ -100,9 +101,9 @@ TEST_P(RandomGraphs, optimum_is_that_of_brute_force_and_of_the_thesis) {
         ASSERT_EQ(thesis.found, result.found);
         if (!result.found) continue;
         ++found;
-        EXPECT_NEAR(result.ratio, expected, 1e-12 * (1.0 + std::abs(expected))) << "seed " << seed;
+        EXPECT_NEAR(result.objective, expected, 1e-12 * (1.0 + std::abs(expected))) << "seed " << seed;
         EXPECT_NEAR(thesis.ratio, expected, 1e-12 * (1.0 + std::abs(expected))) << "seed " << seed;
-        EXPECT_NEAR(ratio_of(graph, result.nodes), result.ratio, 1e-12);
+        EXPECT_NEAR(ratio_of(graph, result.nodes), result.objective, 1e-12);
         EXPECT_NEAR(mrc_test::shared_lambda_search(graph).ratio, expected, 1e-12 * (1.0 + std::abs(expected)));
     }
     EXPECT_GT(found, 300);
@@ -114,21 +115,67 @@ TEST_P(RandomGraphs, certificate_bounds_every_path_and_meets_the_best) {
         const mrc::RatioResult result = mrc::minimum_ratio(graph);
         if (!result.found) continue;
         EXPECT_LE(result.lower_bound, brute_force(graph) + 1e-12);
-        EXPECT_NEAR(result.lower_bound, result.ratio, 1e-12);
+        EXPECT_NEAR(result.lower_bound, result.objective, 1e-12);
     }
 }
 
-TEST_P(RandomGraphs, a_start_below_the_optimum_finds_nothing_and_one_above_finds_it) {
+TEST_P(RandomGraphs, where_the_search_begins_changes_nothing_but_the_work) {
     for (unsigned seed = 2000; seed < 2100; ++seed) {
         const WeightedGraph graph = random_graph(seed, GetParam());
-        const mrc::RatioResult best = mrc::minimum_ratio(graph);
-        if (!best.found) continue;
-        EXPECT_FALSE(mrc::minimum_ratio(graph, {.below = best.ratio - 1e-6}).found);
-        const mrc::RatioResult warm = mrc::minimum_ratio(graph, {.below = best.ratio + 1e-3});
-        EXPECT_TRUE(warm.found);
-        EXPECT_NEAR(warm.ratio, best.ratio, 1e-12);
-        EXPECT_LE(warm.passes, best.passes);
+        const mrc::RatioResult cold = mrc::minimum_ratio(graph);
+        if (!cold.found) continue;
+        for (const double guess : {-3.0, 0.0, cold.objective, 5.0}) {
+            const mrc::RatioResult warm = mrc::minimum_ratio(graph, {.objective = {}, .guess = mrc::Terminal{-1, guess, 1.0}});
+            EXPECT_TRUE(warm.found);
+            EXPECT_NEAR(warm.objective, cold.objective, 1e-12);
+        }
     }
+}
+
+TEST_P(RandomGraphs, optimum_with_length_bias_is_that_of_brute_force) {
+    int above_hull = 0;
+    for (unsigned seed = 4000; seed < 4500; ++seed) {
+        const WeightedGraph graph = random_graph(seed, GetParam());
+        const double lengths = 0.02 * (1.0 + seed % 7);
+        const mrc::Objective objective{0.5 + seed % 3, lengths, seed % 2 ? 4.0 : 0.0};
+        const double expected = brute_force(graph, objective);
+        const mrc::RatioResult result = mrc::minimum_ratio(graph, {.objective = objective, .guess = {}});
+        ASSERT_EQ(result.found, std::isfinite(expected));
+        if (!result.found) continue;
+        EXPECT_NEAR(result.objective, expected, 1e-12 * (1.0 + std::abs(expected))) << "seed " << seed;
+        EXPECT_NEAR(result.lower_bound, expected, 1e-12 * (1.0 + std::abs(expected)));
+        EXPECT_NEAR(objective.value(result.numerator, result.length), result.objective, 1e-14);
+        above_hull += result.labels > 0;
+    }
+    EXPECT_GT(above_hull, 0);
+}
+
+TEST_P(RandomGraphs, optimum_by_counts_is_that_of_brute_force) {
+    for (unsigned seed = 6000; seed < 6300; ++seed) {
+        WeightedGraph graph = random_graph(seed, GetParam());
+        std::ranges::fill(graph.g, 1.0);
+        const mrc::Objective objective{0.5 + seed % 3, 0.02 * (1.0 + seed % 7), seed % 2 ? 3.0 : 0.0};
+        const double expected = brute_force(graph, objective);
+        // So few labels that a search without Karp's recurrence would give up.
+        const mrc::RatioResult result = mrc::minimum_ratio(graph, {.objective = objective, .guess = {}, .most_labels = 1});
+        ASSERT_EQ(result.found, std::isfinite(expected));
+        if (result.found) {
+            EXPECT_NEAR(result.objective, expected, 1e-12 * (1.0 + std::abs(expected))) << "seed " << seed;
+        }
+    }
+}
+
+TEST_P(RandomGraphs, a_search_that_gives_up_still_bounds_the_optimum) {
+    int gaps = 0;
+    for (unsigned seed = 5000; seed < 5200; ++seed) {
+        const WeightedGraph graph = random_graph(seed, GetParam());
+        const mrc::Objective objective{1.0, 0.1, 0.0};
+        const mrc::RatioResult result = mrc::minimum_ratio(graph, {.objective = objective, .guess = {}, .most_labels = 2});
+        if (!result.found) continue;
+        EXPECT_LE(result.lower_bound, brute_force(graph, objective) + 1e-12);
+        gaps += result.lower_bound < result.objective - 1e-9;
+    }
+    EXPECT_GT(gaps, 0);
 }
 
 TEST_P(RandomGraphs, adding_a_multiple_of_g_to_f_moves_the_ratio_and_nothing_else) {
@@ -142,11 +189,11 @@ TEST_P(RandomGraphs, adding_a_multiple_of_g_to_f_moves_the_ratio_and_nothing_els
         }
         const mrc::RatioResult after = mrc::minimum_ratio(graph);
         EXPECT_EQ(after.nodes, before.nodes);
-        EXPECT_NEAR(after.ratio, before.ratio + 3.0, 1e-11);
+        EXPECT_NEAR(after.objective, before.objective + 3.0, 1e-11);
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Pairs, RandomGraphs, testing::Bool(), [](const auto& info) { return info.param ? "matched" : "any"; });
+INSTANTIATE_TEST_SUITE_P(Pairs, RandomGraphs, testing::Bool(), [](const auto& pairs) { return pairs.param ? "matched" : "any"; });
 
 TEST(Ratio, bounds_save_passes_over_one_search_a_source) {
     int ours = 0, thesis = 0;

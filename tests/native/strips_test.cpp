@@ -133,9 +133,10 @@ struct Case {
     Band band;
     std::vector<Curve> strips;
 
-    Case(const Surface& surface, const Curve& contour, const Options& options)
-        : patch(make_patch(surface, vertex_contour(contour), options.width ? std::optional(*options.width + 4) : std::nullopt)),
-          band(grow_band(patch, options)),
+    Case(const Surface& surface, const Curve& contour, const Options& options, bool closed = true)
+        : patch(make_patch(surface, vertex_contour(contour, closed),
+                           options.width ? std::optional(*options.width + 4) : std::nullopt)),
+          band(grow_band(surface, patch, options)),
           strips(strip_boundaries(patch, band)) {}
 
     int halfedge(int a, int b) const {
@@ -143,10 +144,25 @@ struct Case {
     }
     int from(int h) const { return patch.mesh.from_vertex_handle(PatchMesh::HalfedgeHandle(h)).idx(); }
     int to(int h) const { return patch.mesh.to_vertex_handle(PatchMesh::HalfedgeHandle(h)).idx(); }
+    /// The face of the band to the left, or -1 where there is none or an end polygon, which is of neither side.
     int band_face(int h) const {
         const auto f = patch.mesh.face_handle(PatchMesh::HalfedgeHandle(h));
-        return f.is_valid() && band.face[f.idx()] ? f.idx() : -1;
+        return f.is_valid() && band.face[f.idx()] && !at_end(patch.polygon[f.idx()]) ? f.idx() : -1;
     }
+    bool at_end(int polygon) const {
+        return std::find(band.polygons.end() - band.end_polygons, band.polygons.end(), polygon) != band.polygons.end();
+    }
+    /// The vertices that no strip holds, since end polygons alone do.
+    std::set<int> beyond() const {
+        std::set<int> found;
+        for (int v = 0; v < static_cast<int>(patch.vertex.size()); ++v) {
+            if (band.side[v] != Side::outside) found.insert(v);
+        }
+        for (const Curve& strip : strips)
+            for (const int v : strip) found.erase(v);
+        return found;
+    }
+    size_t edges(const Curve& curve) const { return curve.size() - (patch.closed ? 0 : 1); }
     double length(const Curve& curve, size_t i) const {
         return patch.mesh.calc_edge_length(PatchMesh::HalfedgeHandle(halfedge(curve[i], next_of(curve, i))));
     }
@@ -202,7 +218,7 @@ std::set<int> right_of(const Case& c, const Curve& strip) {
     const auto add = [&](int face) {
         if (face >= 0 && faces.insert(face).second) queue.push_back(face);
     };
-    for (size_t i = 0; i < strip.size(); ++i) {
+    for (size_t i = 0; i < c.edges(strip); ++i) {
         const int h = c.halfedge(strip[i], next_of(strip, i));
         wall.insert({h, h ^ 1});
         add(c.band_face(h ^ 1));
@@ -214,7 +230,7 @@ std::set<int> right_of(const Case& c, const Curve& strip) {
             if (!wall.contains(h.idx())) add(c.band_face(h.idx() ^ 1));
         }
     }
-    for (size_t i = 0; i < strip.size(); ++i) {
+    for (size_t i = 0; i < c.edges(strip); ++i) {
         const int left = c.band_face(c.halfedge(strip[i], next_of(strip, i)));
         EXPECT_TRUE(left < 0 || !faces.contains(left)) << "a strip does not part the band";
     }
@@ -224,7 +240,7 @@ std::set<int> right_of(const Case& c, const Curve& strip) {
 void expect_simple_along_edges(const Case& c) {
     for (const Curve& strip : c.strips) {
         EXPECT_EQ(std::set<int>(strip.begin(), strip.end()).size(), strip.size());
-        for (size_t i = 0; i < strip.size(); ++i) {
+        for (size_t i = 0; i < c.edges(strip); ++i) {
             const int h = c.halfedge(strip[i], next_of(strip, i));
             ASSERT_GE(h, 0);
             EXPECT_FALSE(c.patch.diagonal_halfedge(h));
@@ -240,16 +256,24 @@ void expect_nested(const Case& c) {
         EXPECT_TRUE(std::ranges::includes(faces, last)) << "strips cross";
         last = faces;
     }
-    EXPECT_EQ(static_cast<long>(last.size()), std::ranges::count(c.band.face, 1));
+    long faces = 0;
+    for (const auto f : c.patch.mesh.faces()) faces += c.band.face[f.idx()] && !c.at_end(c.patch.polygon[f.idx()]);
+    EXPECT_EQ(static_cast<long>(last.size()), faces);
 }
 
 void expect_covered_and_adjacent(const Case& c) {
     std::vector<std::vector<int>> levels(c.patch.vertex.size());
     for (size_t s = 0; s < c.strips.size(); ++s)
         for (const int v : c.strips[s]) levels[v].push_back(static_cast<int>(s));
-    for (size_t v = 0; v < levels.size(); ++v) EXPECT_EQ(levels[v].empty(), c.band.side[v] == Side::outside);
+    const std::set<int> beyond = c.beyond();
+    EXPECT_TRUE(!c.patch.closed || beyond.empty());
+    for (const int v : beyond) {
+        for (const auto f : c.patch.mesh.vf_range(PatchMesh::VertexHandle(v)))
+            EXPECT_TRUE(!c.band.face[f.idx()] || c.at_end(c.patch.polygon[f.idx()])) << "a strip misses a vertex";
+    }
+    for (size_t v = 0; v < levels.size(); ++v) EXPECT_TRUE(levels[v].empty() || c.band.side[v] != Side::outside);
     for (int h = 0; h < static_cast<int>(c.patch.mesh.n_halfedges()); h += 2) {
-        if (!c.band.edge[h / 2]) continue;
+        if (!c.band.edge[h / 2] || (c.band_face(h) < 0 && c.band_face(h ^ 1) < 0)) continue;
         int nearest = static_cast<int>(c.strips.size());
         for (const int a : levels[c.from(h)])
             for (const int b : levels[c.to(h)]) nearest = std::min(nearest, std::abs(a - b));
@@ -260,7 +284,8 @@ void expect_covered_and_adjacent(const Case& c) {
 void expect_rounds_among_strips(const Case& c) {
     for (const auto* side : {&c.band.left, &c.band.right}) {
         for (const Curve& curve : *side) {
-            EXPECT_TRUE(std::ranges::any_of(c.strips, [&](const Curve& strip) { return same_cycle(curve, strip); }));
+            EXPECT_TRUE(
+                std::ranges::any_of(c.strips, [&](const Curve& s) { return c.patch.closed ? same_cycle(curve, s) : curve == s; }));
         }
     }
 }
@@ -282,20 +307,20 @@ void expect_flow_laws(const Case& c, const Flow& flow) {
     }
     for (const Curve& strip : c.strips) {
         int turns = 0;
-        for (size_t i = 0; i < strip.size(); ++i) {
+        for (size_t i = 0; i < c.edges(strip); ++i) {
             const int h = c.halfedge(strip[i], next_of(strip, i));
             turns += flow.jump[h];
             EXPECT_GT(flow.increment(c.patch.mesh, h), 1e-9);
         }
-        EXPECT_EQ(turns, 1);
+        EXPECT_EQ(turns, c.patch.closed ? 1 : 0);
     }
 }
 
 /// The increments along a curve are its edges' shares of its length.
 void expect_arc_length(const Case& c, const Flow& flow, const Curve& curve) {
     double total = 0.0;
-    for (size_t i = 0; i < curve.size(); ++i) total += c.length(curve, i);
-    for (size_t i = 0; i < curve.size(); ++i) {
+    for (size_t i = 0; i < c.edges(curve); ++i) total += c.length(curve, i);
+    for (size_t i = 0; i < c.edges(curve); ++i) {
         const int h = c.halfedge(curve[i], next_of(curve, i));
         EXPECT_NEAR(flow.increment(c.patch.mesh, h), c.length(curve, i) / total, 1e-12);
     }
@@ -534,6 +559,259 @@ TEST(StripFlow, RisesAlongEdgesWithoutLength) {
         options.flow = kind;
         expect_flow_laws(c, make_flow(surface, c.patch, c.band, options));
     }
+}
+
+/// Stretches of jagged loops on tori of all kinds of faces.
+struct OpenCase {
+    Torus torus;
+    Options options;
+    Surface surface;
+    Curve contour;
+    Case c;
+
+    explicit OpenCase(unsigned seed)
+        : torus{.around = 40,
+                .across = 24,
+                .faces = std::array{Faces::triangles, Faces::quads, Faces::mixed}[seed % 3],
+                .jitter = 0.1 * (seed % 4),
+                .seed = seed},
+          options(gates(1 + static_cast<int>(seed % 5))),
+          surface(torus.surface()),
+          contour(stretch(seed)),
+          c(surface, contour, options, false) {}
+
+    Curve stretch(unsigned seed) const {
+        if (torus.faces == Faces::mixed) return row();
+        const Curve loop = torus.jagged_loop(1 + static_cast<int>(seed % 2), seed);
+        return Curve(loop.begin() + 3, loop.begin() + 5 + seed % 20);
+    }
+
+    /// Merged faces leave edges along the rows only.
+    Curve row() const {
+        const Curve ring = torus.ring();
+        return Curve(ring.begin() + 4, ring.begin() + 24);
+    }
+};
+
+constexpr unsigned open_cases = 60;
+
+/// Vertices - edges + faces, the contour's own edges included.
+int euler_characteristic(const Case& c) {
+    return static_cast<int>(std::ranges::count_if(c.band.side, [](Side s) { return s != Side::outside; })) -
+           static_cast<int>(std::ranges::count(c.band.edge, 1)) + static_cast<int>(std::ranges::count(c.band.face, 1));
+}
+
+/// The vertices of all band polygons at a vertex.
+std::set<int> polygon_neighbours(const Case& c, int vertex) {
+    std::set<int> polygons, found;
+    for (const auto f : c.patch.mesh.vf_range(PatchMesh::VertexHandle(vertex)))
+        if (c.band.face[f.idx()]) polygons.insert(c.patch.polygon[f.idx()]);
+    for (const int p : polygons) {
+        for (int f = c.patch.first_face[p]; f < c.patch.first_face[p + 1]; ++f)
+            for (const auto v : c.patch.mesh.fv_range(PatchMesh::FaceHandle(f))) found.insert(v.idx());
+    }
+    return found;
+}
+
+TEST(OpenBand, IsADiskThatGrowsRoundByRound) {
+    for (unsigned seed = 0; seed < open_cases; ++seed) {
+        const OpenCase open(seed);
+        const Case& c = open.c;
+        SCOPED_TRACE(seed);
+        EXPECT_EQ(euler_characteristic(c), 1);
+        EXPECT_GT(c.band.rounds, 0);
+        for (int v = 0; v < static_cast<int>(c.band.round.size()); ++v) {
+            EXPECT_EQ(c.band.round[v] < 0, c.band.side[v] == Side::outside);
+            EXPECT_LE(c.band.round[v], c.band.rounds);
+            if (c.band.round[v] <= 0) continue;
+            const std::set<int> near = polygon_neighbours(c, v);
+            EXPECT_TRUE(
+                std::ranges::any_of(near, [&](int w) { return c.band.round[w] >= 0 && c.band.round[w] < c.band.round[v]; }));
+        }
+    }
+}
+
+/// Each boundary runs from end to end, and its vertices are the last one's or share a polygon with them.
+TEST(OpenBand, BoundariesRunFromEndToEnd) {
+    for (unsigned seed = 0; seed < open_cases; ++seed) {
+        const OpenCase open(seed);
+        const Case& c = open.c;
+        SCOPED_TRACE(seed);
+        for (const auto* side : {&c.band.left, &c.band.right}) {
+            ASSERT_EQ(static_cast<int>(side->size()), c.band.rounds + 1);
+            EXPECT_EQ(side->front(), c.patch.contour);
+            for (size_t r = 1; r < side->size(); ++r) {
+                const Curve& curve = (*side)[r];
+                const std::set<int> last((*side)[r - 1].begin(), (*side)[r - 1].end());
+                ASSERT_GE(curve.size(), 2u);
+                EXPECT_EQ(curve.front(), c.patch.contour.front());
+                EXPECT_EQ(curve.back(), c.patch.contour.back());
+                EXPECT_EQ(std::set<int>(curve.begin(), curve.end()).size(), curve.size());
+                for (const int v : curve) {
+                    const std::set<int> near = polygon_neighbours(c, v);
+                    EXPECT_TRUE(last.contains(v) || std::ranges::any_of(near, [&](int w) { return last.contains(w); }));
+                }
+            }
+        }
+    }
+}
+
+TEST(OpenBand, WrapsRoundTheEnds) {
+    for (const Faces faces : {Faces::quads, Faces::triangles}) {
+        const Torus torus{.around = 40, .across = 24, .faces = faces};
+        const Surface surface = torus.surface();
+        const Curve ring = torus.ring();
+        const Case c(surface, Curve(ring.begin(), ring.begin() + 12), gates(4), false);
+        for (const int end : {c.patch.contour.front(), c.patch.contour.back()}) {
+            for (const auto f : c.patch.mesh.vf_range(PatchMesh::VertexHandle(end))) EXPECT_TRUE(c.band.face[f.idx()]);
+        }
+        EXPECT_GT(c.band.end_polygons, 0);
+    }
+}
+
+/// Values in [0, 1], and the ends alone at 0 and 1.
+void expect_open_flow_laws(const Case& c, const Flow& flow) {
+    EXPECT_TRUE(std::ranges::all_of(flow.jump, [](int jump) { return jump == 0; }));
+    for (int v = 0; v < static_cast<int>(flow.value.size()); ++v) {
+        if (c.band.side[v] == Side::outside) continue;
+        EXPECT_EQ(flow.value[v] <= 0.0, v == c.patch.contour.front());
+        EXPECT_EQ(flow.value[v] >= 1.0, v == c.patch.contour.back());
+    }
+    EXPECT_EQ(flow.value[c.patch.contour.front()], 0.0);
+    EXPECT_EQ(flow.value[c.patch.contour.back()], 1.0);
+}
+
+void expect_all_open_laws(const Surface& surface, const Case& c, Options options) {
+    expect_strip_laws(c);
+    for (const FlowKind kind : {FlowKind::gates, FlowKind::arc_length}) {
+        options.flow = kind;
+        const Flow flow = make_flow(surface, c.patch, c.band, options);
+        expect_flow_laws(c, flow);
+        expect_open_flow_laws(c, flow);
+        expect_arc_length(c, flow, c.patch.contour);
+    }
+}
+
+TEST(OpenStrips, LawsHoldRoundJaggedCurves) {
+    int swallowed = 0;
+    size_t beyond = 0;
+    for (unsigned seed = 0; seed < open_cases; ++seed) {
+        const OpenCase open(seed);
+        SCOPED_TRACE(seed);
+        expect_all_open_laws(open.surface, open.c, open.options);
+        swallowed += open.c.swallowed() - static_cast<int>(open.c.beyond().size());
+        beyond += open.c.beyond().size();
+    }
+    EXPECT_GT(swallowed, 50) << "the curves are too smooth to need refined strips";
+    EXPECT_GT(beyond, 10u) << "no vertex lies beyond the strips";
+}
+
+TEST(OpenStrips, LawsHoldOverTheWholeSurface) {
+    for (const Faces faces : {Faces::quads, Faces::triangles}) {
+        const Torus torus{.faces = faces, .jitter = 0.3};
+        const Surface surface = torus.surface();
+        const Curve loop = torus.jagged_loop(2, 5);
+        const Case c(surface, Curve(loop.begin(), loop.begin() + 12), gates(std::nullopt), false);
+        EXPECT_EQ(euler_characteristic(c), 1);
+        expect_all_open_laws(surface, c, gates(std::nullopt));
+    }
+}
+
+TEST(OpenStrips, LawsHoldAroundASingleEdge) {
+    for (const Faces faces : {Faces::quads, Faces::triangles}) {
+        const Torus torus{.faces = faces, .jitter = 0.2};
+        const Surface surface = torus.surface();
+        expect_all_open_laws(surface, Case(surface, {torus.vertex(3, 8), torus.vertex(4, 8)}, gates(3), false), gates(3));
+    }
+}
+
+TEST(OpenStripFlow, ReversalIsOneMinusTheFlow) {
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        const Torus torus{.jitter = 0.35, .seed = seed};
+        const Surface surface = torus.surface();
+        const Options options = gates(1 + static_cast<int>(seed % 4));
+        const Curve loop = torus.jagged_loop(1 + static_cast<int>(seed % 2), seed);
+        Curve contour(loop.begin(), loop.begin() + 14);
+        const EdgeFlow flow = edge_flow(surface, Case(surface, contour, options, false), options);
+        SCOPED_TRACE(seed);
+        std::ranges::reverse(contour);
+        EXPECT_LT(largest_difference(flow, edge_flow(surface, Case(surface, contour, options, false), options), -1.0), 1e-9);
+    }
+}
+
+/// A tube from one circle of border to another, its columns `leaning` rows further each, so that the border sheers off the curve.
+struct Tube {
+    int columns = 20, rows = 24;
+    double leaning = 0.0, jitter = 0.0;
+
+    int vertex(int i, int j) const { return i * rows + (j + rows) % rows; }
+
+    Surface surface() const {
+        std::mt19937 random(7);
+        std::uniform_real_distribution<double> wobble(-jitter, jitter);
+        std::vector<double> positions;
+        std::vector<int32_t> offsets{0}, corners;
+        for (int i = 0; i < columns; ++i) {
+            for (int j = 0; j < rows; ++j) {
+                const double angle = 2.0 * std::numbers::pi * (j + leaning * i + wobble(random)) / rows;
+                positions.insert(positions.end(), {0.25 * (i + wobble(random)), std::cos(angle), std::sin(angle)});
+                if (i + 1 == columns) continue;
+                for (const int v : {vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)}) corners.push_back(v);
+                offsets.push_back(static_cast<int32_t>(corners.size()));
+            }
+        }
+        return Surface({positions, offsets, corners, {}, {}});
+    }
+};
+
+TEST(OpenStripFlow, EndsOnTheBorderHoldItsWholePiece) {
+    for (const double jitter : {0.0, 0.3}) {
+        const Tube tube{.leaning = 0.5, .jitter = jitter};
+        const Surface surface = tube.surface();
+        Curve contour;
+        for (int i = 0; i < tube.columns; ++i) contour.push_back(tube.vertex(i, 5));
+        for (const FlowKind kind : {FlowKind::gates, FlowKind::arc_length}) {
+            Options options = gates(4);
+            options.flow = kind;
+            options.ends = Ends::border;
+            const Case c(surface, contour, options, false);
+            expect_strip_laws(c);
+            const Flow flow = make_flow(surface, c.patch, c.band, options);
+            const std::vector<int> first = border_piece(c.patch, c.band, c.patch.contour.front());
+            const std::vector<int> last = border_piece(c.patch, c.band, c.patch.contour.back());
+            ASSERT_GE(first.size(), 7u);
+            ASSERT_GE(last.size(), 7u);
+            const std::set<int> zero(first.begin(), first.end()), one(last.begin(), last.end());
+            for (int v = 0; v < static_cast<int>(flow.value.size()); ++v) {
+                if (c.band.side[v] == Side::outside) continue;
+                EXPECT_EQ(flow.value[v] <= 0.0, zero.contains(v));
+                EXPECT_EQ(flow.value[v] >= 1.0, one.contains(v));
+            }
+            for (const Curve& strip : c.strips) {
+                for (size_t i = 0; i + 1 < strip.size(); ++i) {
+                    const bool held = (zero.contains(strip[i]) && zero.contains(strip[i + 1])) ||
+                                      (one.contains(strip[i]) && one.contains(strip[i + 1]));
+                    const double increment = flow.value[strip[i + 1]] - flow.value[strip[i]];
+                    EXPECT_TRUE(held ? increment == 0.0 : increment > 1e-9);
+                }
+            }
+            expect_arc_length(c, flow, c.patch.contour);
+        }
+    }
+}
+
+/// Both ends on one circle of border: each holds only its own vertex.
+TEST(OpenStripFlow, EndsOnOnePieceOfBorderHoldThemselves) {
+    const Tube tube{.jitter = 0.2};
+    const Surface surface = tube.surface();
+    Curve contour;
+    for (int i = 0; i < 4; ++i) contour.push_back(tube.vertex(i, 5));
+    for (int j = 6; j < 9; ++j) contour.push_back(tube.vertex(3, j));
+    for (int i = 2; i >= 0; --i) contour.push_back(tube.vertex(i, 8));
+    Options options = gates(4);
+    options.ends = Ends::border;
+    const Case c(surface, contour, options, false);
+    expect_all_open_laws(surface, c, options);
 }
 
 }  // namespace

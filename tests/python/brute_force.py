@@ -14,13 +14,22 @@ from math import acos, floor, inf, pi
 
 import numpy as np
 
-DEFAULTS = {"width": 4, "curvature_radius": 1.6, "curvature_smoothing": 1.0, "flow": "gates", "kappa0_factor": 3.0,
-            "feature_exponent": 1.0, "direction_exponent": 1.0, "feature": "valley", "max_turn": pi / 2,
-            "iterations": 1}
-SIZE_RINGS = 4          # the scales are taken within this many edges of the contour
-NOTHING = 1e-4          # curvatures below this over h count as 0, differences as umbilic
+DEFAULTS = {
+    "width": 4,
+    "curvature_radius": 1.6,
+    "curvature_smoothing": 1.0,
+    "flow": "gates",
+    "kappa0_factor": 3.0,
+    "feature_exponent": 1.0,
+    "direction_exponent": 1.0,
+    "feature": "valley",
+    "max_turn": pi / 2,
+    "iterations": 1,
+}
+SIZE_RINGS = 4  # the scales are taken within this many edges of the contour
+NOTHING = 1e-4  # curvatures below this over h count as 0, differences as umbilic
 TURN_TOLERANCE = 1e-6
-LEVEL = 1e-9            # increments below this join vertices into one level
+LEVEL = 1e-9  # increments below this join vertices into one level
 
 
 def edges_of(loop):
@@ -397,7 +406,10 @@ class BruteForce:
         """Directed edges: (a, b, kind), kind 0 where the flow rises, 1 and -1 where only the rank rises or falls."""
         self.nodes = []
         tiny = 1e-12 * self.energy.length
+        faces = self.energy.geometry.left_face
         for (a, b), increment in self.levels.real.items():
+            if (a, b) not in faces or (b, a) not in faces:  # on the border of the mesh, where no part ends
+                continue
             climb = self.rank[b] - self.rank[a]
             if self.levels.name[a] == self.levels.name[b]:
                 if abs(climb) > tiny:
@@ -425,8 +437,11 @@ class BruteForce:
         gap, value = max(gaps)
         level = value + gap / 2
         passed = {v: floor(x - level) for v, x in self.levels.value.items()}
-        return [i for i, (a, b, kind) in enumerate(self.nodes) if kind == 0 and
-                floor(self.levels.value[a] + self.levels.real[a, b] - level) > passed[a]]
+        return [
+            i
+            for i, (a, b, kind) in enumerate(self.nodes)
+            if kind == 0 and floor(self.levels.value[a] + self.levels.real[a, b] - level) > passed[a]
+        ]
 
     def cycles(self):
         """All closed contours: (vertices, sum of f, sum of g)."""
@@ -464,8 +479,9 @@ class BruteForce:
     def _ways(self, node, source, sources, known):
         if node not in known:
             ends = [j for j, _, _ in self.arcs[node]]
-            known[node] = ends.count(source) + sum(self._ways(j, source, sources, known) for j in ends
-                                                   if j not in sources)
+            known[node] = ends.count(source) + sum(
+                self._ways(j, source, sources, known) for j in ends if j not in sources
+            )
         return known[node]
 
     def best(self):

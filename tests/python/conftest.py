@@ -19,12 +19,21 @@ def realistic_contours():
     rng = np.random.default_rng(2006)
     bumpy = meshes.icosphere(3)
     bumpy = bumpy.moved(bumpy.positions * (1 + 0.2 * np.sin(4 * bumpy.positions[:, [2]] + bumpy.positions[:, [0]])))
-    bodies = {"peanut": meshes.peanut(rng, 3), "bumpy": bumpy, "bent": meshes.bent_tube(rng),
-              "grooved": meshes.torus(20, 64, rng=rng, split_share=0.7, noise=0.02, grooves=0.3),
-              "finger": meshes.finger(rng)[0]}
+    bodies = {
+        "peanut": meshes.peanut(rng, 3),
+        "bumpy": bumpy,
+        "bent": meshes.bent_tube(rng),
+        "grooved": meshes.torus(20, 64, rng=rng, split_share=0.7, noise=0.02, grooves=0.3),
+        "finger": meshes.finger(rng)[0],
+    }
     normals = {"peanut": [0, 0, 1], "bumpy": [0, 0, 1], "bent": [-1, 1, 0], "grooved": [0, 1, 0], "finger": [0, 0, 1]}
-    offsets = {"peanut": [-0.2, 0.15], "bumpy": [-0.3, 0.4], "bent": [-0.8, 0.4, 1.0], "grooved": [-0.6, 0.7],
-               "finger": [0.5, 2.5]}
+    offsets = {
+        "peanut": [-0.2, 0.15],
+        "bumpy": [-0.3, 0.4],
+        "bent": [-0.8, 0.4, 1.0],
+        "grooved": [-0.6, 0.7],
+        "finger": [0.5, 2.5],
+    }
     cases = []
     for name, mesh in bodies.items():
         for offset in offsets[name]:

@@ -136,8 +136,9 @@ def bent_tube(rng, rows=60, columns=24):
     radius = 1.0 - 0.35 * np.exp(-(((along - np.pi / 4) / 0.12) ** 2))
     angle = 2 * np.pi * np.arange(columns) / columns
     ring = 4.0 - radius[:, None] * np.cos(angle)
-    positions = np.stack([ring * np.cos(along)[:, None], ring * np.sin(along)[:, None],
-                          radius[:, None] * np.sin(angle)], axis=-1).reshape(-1, 3)
+    positions = np.stack(
+        [ring * np.cos(along)[:, None], ring * np.sin(along)[:, None], radius[:, None] * np.sin(angle)], axis=-1
+    ).reshape(-1, 3)
     positions += 0.01 * rng.standard_normal(positions.shape)
     faces = split_quads(grid_faces(rows, columns), rng)
     return polygon_mesh(positions, faces)
@@ -160,12 +161,43 @@ def subdivided(positions, faces):
 def icosphere(subdivisions):
     """A unit sphere of triangles."""
     golden = (1 + np.sqrt(5)) / 2
-    positions = [(-1, golden, 0), (1, golden, 0), (-1, -golden, 0), (1, -golden, 0), (0, -1, golden), (0, 1, golden),
-                 (0, -1, -golden), (0, 1, -golden), (golden, 0, -1), (golden, 0, 1), (-golden, 0, -1), (-golden, 0, 1)]
+    positions = [
+        (-1, golden, 0),
+        (1, golden, 0),
+        (-1, -golden, 0),
+        (1, -golden, 0),
+        (0, -1, golden),
+        (0, 1, golden),
+        (0, -1, -golden),
+        (0, 1, -golden),
+        (golden, 0, -1),
+        (golden, 0, 1),
+        (-golden, 0, -1),
+        (-golden, 0, 1),
+    ]
     positions = [np.array(p) / np.linalg.norm(p) for p in positions]
-    faces = [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4), (11, 10, 2), (10, 7, 6),
-             (7, 1, 8), (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5), (2, 4, 11), (6, 2, 10),
-             (8, 6, 7), (9, 8, 1)]
+    faces = [
+        (0, 11, 5),
+        (0, 5, 1),
+        (0, 1, 7),
+        (0, 7, 10),
+        (0, 10, 11),
+        (1, 5, 9),
+        (5, 11, 4),
+        (11, 10, 2),
+        (10, 7, 6),
+        (7, 1, 8),
+        (3, 9, 4),
+        (3, 4, 2),
+        (3, 2, 6),
+        (3, 6, 8),
+        (3, 8, 9),
+        (4, 9, 5),
+        (2, 4, 11),
+        (6, 2, 10),
+        (8, 6, 7),
+        (9, 8, 1),
+    ]
     for _ in range(subdivisions):
         faces = subdivided(positions, faces)
     return polygon_mesh(np.array(positions), faces)
@@ -248,12 +280,12 @@ def renumbered(mesh, rng):
     faces, triangles = [], []
     for i in rng.permutation(len(mesh.faces)):
         faces.append(tuple(number[np.roll(mesh.faces[i], rng.integers(len(mesh.faces[i])))].tolist()))
-        own = mesh.triangles[starts[i]:starts[i + 1]]
+        own = mesh.triangles[starts[i] : starts[i + 1]]
         triangles += [np.roll(number[t], rng.integers(3)) for t in own[rng.permutation(len(own))]]
     return Mesh(positions, tuple(faces), np.array(triangles, dtype=np.int32)), number
 
 
 def rigidly_moved(mesh, rng):
     rotation, _ = np.linalg.qr(rng.standard_normal((3, 3)))
-    rotation *= np.linalg.det(rotation)     # no mirror image
+    rotation *= np.linalg.det(rotation)  # no mirror image
     return mesh.moved(mesh.positions @ rotation.T + rng.uniform(-5, 5, 3))

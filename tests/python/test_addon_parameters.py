@@ -20,7 +20,7 @@ def choices(row):
     """The values of a setting that a user can reach, at least the extreme ones."""
     if "items" in row:
         return [item[0] for item in row["items"]]
-    return [row["min"], row["max"]] if "min" in row else [False, True]
+    return [row["min"], row.get("max", row.get("soft_max"))] if "min" in row else [False, True]
 
 
 REACHABLE = [(name, value) for name, row in parameters.SETTINGS.items() for value in choices(row)]

@@ -169,8 +169,12 @@ def bowl(gap=None):
     if gap is None:
         return sheet, np.arange(len(sheet.positions))
     count, n = 25, len(sheet.positions)
-    border = [*range(count), *range(2 * count - 1, n, count), *range(n - 2, n - count - 1, -1),
-              *range(n - 2 * count, 0, -count)]
+    border = [
+        *range(count),
+        *range(2 * count - 1, n, count),
+        *range(n - 2, n - count - 1, -1),
+        *range(n - 2 * count, 0, -count),
+    ]
     below = [tuple(n + v for v in face[::-1]) for face in sheet.faces]
     rim = [(a, b, n + b, n + a)[::-1] for a, b in zip(border, border[1:] + border[:1], strict=True)]
     positions = np.concatenate([sheet.positions, sheet.positions - [0, 0, gap]])
@@ -215,8 +219,10 @@ def test_hidden_faces_count(rng):
 
 def test_finite_everywhere(rng):
     """Borders, zero-area faces, zero-length edges, a fold flat onto itself, a vertex of no face."""
-    positions = np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0], [1, 1, 0], [1, 1, 0], [0, 2, 0], [2, 2, 0], [1, -1, 0],
-                          [9, 9, 9]], dtype=float)
+    positions = np.array(
+        [[0, 0, 0], [1, 0, 0], [2, 0, 0], [1, 1, 0], [1, 1, 0], [0, 2, 0], [2, 2, 0], [1, -1, 0], [9, 9, 9]],
+        dtype=float,
+    )
     faces = [(0, 1, 3), (1, 2, 3), (0, 3, 5), (3, 4, 5), (4, 6, 5), (0, 2, 1), (0, 1, 7)]
     flat = meshes.polygon_mesh(positions, faces)
     sheet = height_field(1, 5, lambda x, y: x * y)

@@ -12,7 +12,7 @@ from band_checks import check_search_space
 from brute_force import BruteForce
 from conftest import surface_of
 
-AFFORDABLE = 20000     # contours that the enumeration may visit in one band
+AFFORDABLE = 20000  # contours that the enumeration may visit in one band
 
 
 def triangle_annulus(rng):
@@ -62,21 +62,35 @@ def dead_end_arm(rng):
     return mesh, columns + np.arange(columns, dtype=np.int32)
 
 
-FAMILIES = {triangle_annulus: 60, mixed_annulus: 45, level_cylinder: 45, closed_torus: 30, long_tube: 30,
-            dead_end_arm: 12}
+FAMILIES = {
+    triangle_annulus: 60,
+    mixed_annulus: 45,
+    level_cylinder: 45,
+    closed_torus: 30,
+    long_tube: 30,
+    dead_end_arm: 12,
+}
 CASES = [(family, seed) for family, count in FAMILIES.items() for seed in range(count)]
 
 
 def random_options(rng, family, seed):
     widths = [None] if family is dead_end_arm else [1, 2, 3] if family is long_tube else [1, 2, 3, None]
     plain = rng.random() < 0.4
-    options = {"width": widths[int(rng.integers(len(widths)))], "flow": ("gates", "arc_length", "harmonic")[seed % 3],
-               "feature": ("valley", "ridge")[int(rng.integers(2))], "iterations": 1}
+    options = {
+        "width": widths[int(rng.integers(len(widths)))],
+        "flow": ("gates", "arc_length", "harmonic")[seed % 3],
+        "feature": ("valley", "ridge")[int(rng.integers(2))],
+        "iterations": 1,
+    }
     if not plain:
-        options |= {"feature_exponent": rng.uniform(0.4, 2.0), "direction_exponent": rng.uniform(0.5, 3.0),
-                    "kappa0_factor": rng.uniform(0.5, 6.0), "curvature_radius": rng.uniform(0.7, 2.2),
-                    "curvature_smoothing": float(rng.choice([0.0, 0.4, 1.3])),
-                    "max_turn": rng.uniform(0.35 * pi, 0.8 * pi)}
+        options |= {
+            "feature_exponent": rng.uniform(0.4, 2.0),
+            "direction_exponent": rng.uniform(0.5, 3.0),
+            "kappa0_factor": rng.uniform(0.5, 6.0),
+            "curvature_radius": rng.uniform(0.7, 2.2),
+            "curvature_smoothing": float(rng.choice([0.0, 0.4, 1.3])),
+            "max_turn": rng.uniform(0.35 * pi, 0.8 * pi),
+        }
     return options
 
 
@@ -106,7 +120,7 @@ def test_result_equals_enumeration(family, seed):
 
     result = mrc.optimize(surface, contour, closed=True, options=mrc.Options(**options))
     ratio, vertices, status = brute.best()
-    tiny = 1e-4 * brute.energy.scale        # straight contours: f is a difference that rounding leaves of nothing
+    tiny = 1e-4 * brute.energy.scale  # straight contours: f is a difference that rounding leaves of nothing
     assert close(result.initial_ratio, brute.energy.ratio(contour), tiny)
     assert close(result.ratio, ratio, tiny), f"enumeration found {vertices}"
     assert close(brute.energy.ratio(result.vertices), ratio, tiny)
@@ -127,8 +141,10 @@ def check_same_graph(brute, space):
     names = [tuple(node) for node in space["nodes"].tolist()]
     assert set(names) == nodes
     expected = {(brute.nodes[i][:2], brute.nodes[j][:2]): (f, g) for i, arcs in brute.arcs.items() for j, f, g in arcs}
-    found = {(names[i], names[j]): fg
-             for (i, j), *fg in zip(space["arcs"].tolist(), space["f"].tolist(), space["g"].tolist(), strict=True)}
+    found = {
+        (names[i], names[j]): fg
+        for (i, j), *fg in zip(space["arcs"].tolist(), space["f"].tolist(), space["g"].tolist(), strict=True)
+    }
     assert set(found) == set(expected)
     for arc, (f, g) in found.items():
         assert close(f, expected[arc][0], brute.energy.scale * g), arc

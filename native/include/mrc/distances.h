@@ -37,6 +37,31 @@ void settle_outwards(const Surface& surface, std::span<const int> seeds, Visit&&
     }
 }
 
+/// Distances along the surface from a contour, found as far out as they are asked for: shortest paths over real edges, diagonals
+/// unseen. Where the contour crosses an edge it starts them at the edge's ends, with the way along the edge.
+class DistanceField {
+  public:
+    /// The surface must outlive the field.
+    DistanceField(const Surface& surface, const Contour& contour);
+
+    /// Infinity where no edges lead there.
+    double at(int vertex) const;
+    /// Linear inside an edge.
+    double at(const SurfacePoint& point) const {
+        return (1.0 - point.t) * at(point.a) + (point.is_vertex() ? 0.0 : point.t * at(point.b));
+    }
+
+  private:
+    using Entry = std::pair<double, int>;
+    const Surface& surface_;
+    mutable std::unordered_map<int, double> best_;
+    mutable std::unordered_set<int> settled_;
+    mutable std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+
+    void reach(int vertex, double distance) const;
+    bool settle_next() const;
+};
+
 /// Distances along the surface from vertices, up to `limit`: (vertex, distance) in the order of distance, then of vertex.
 std::vector<std::pair<int, double>> distances_from(const Surface& surface, std::span<const int> vertices, double limit);
 

@@ -4,6 +4,7 @@
 #include <mrc/energy.h>
 #include <mrc/flow.h>
 #include <mrc/ratio.h>
+#include <mrc/region.h>
 
 #include <array>
 #include <span>
@@ -21,25 +22,27 @@ struct GraphPoint {
 /// A directed segment between two points of a triangle's border, which the flow runs along: a node of the graph.
 struct Chord {
     int tail = -1, head = -1;  ///< points
-    int face = -1;             ///< surface polygon that it lies in; for a chord along an edge, one of its two
     double increment = 0.0;    ///< of the flow, 0 for a level chord
 };
 
-/// The acyclic graph of 4.2.3 over the regular (3.1) ambient graph of a band.
+/// The acyclic graph of 4.2.3 over the regular (3.1) or the refined (3.2) ambient graph of a band.
 ///
 /// Any level of the flow is a cut: a closed contour crosses it exactly once. Chords that cross it appear twice, as source and as
 /// destination.
 struct ContourGraph {
     std::vector<GraphPoint> points;
-    std::vector<Chord> chords;      ///< in topological order, the crossing ones last
-    int crossing = 0;               ///< how many chords cross the level: the size of the cut
-    double level = 0.0;             ///< the flow's value at the cut
-    WeightedGraph search;           ///< sources first, then the chords from 0 on
-    std::vector<int> given;         ///< nodes of the given contour from source to destination; empty where it is no path
+    std::vector<Chord> chords;  ///< in topological order, the crossing ones last
+    int crossing = 0;           ///< how many chords cross the level: the size of the cut
+    double level = 0.0;         ///< the flow's value at the cut
+    WeightedGraph search;       ///< sources first, then the chords from 0 on
+    std::vector<int> given;     ///< nodes of the given contour from source to destination; empty where it is no path
 
     int chord_of(int node) const { return node < crossing ? static_cast<int>(chords.size()) - crossing + node : node - crossing; }
 };
 
-ContourGraph make_graph(const Surface& surface, const Patch& patch, const Band& band, const Flow& flow, const Energy& energy);
+/// `region`: the form of the region term, if there is one.
+/// `steiner`: k, the Steiner points put on each edge; 0: contours keep to mesh edges.
+ContourGraph make_graph(const Surface& surface, const Patch& patch, const Band& band, const Flow& flow, const Energy& energy,
+                        const Options& options, const Wishes& wishes, int steiner, const EdgeForm* region = nullptr);
 
 }  // namespace mrc

@@ -7,6 +7,7 @@
 #include <mrc/options.h>
 #include <mrc/scales.h>
 #include <mrc/surface.h>
+#include <mrc/wishes.h>
 
 #include <functional>
 #include <map>
@@ -16,30 +17,30 @@
 
 namespace mrc {
 
-enum class Status { improved, unchanged, cancelled };
+enum class Status { improved, unchanged, constrained, cancelled };
 
 /// The columns of tables 5.1 and 5.2, of the last iteration but where a sum is named.
 struct Statistics {
-    int faces = 0;         ///< polygons in the band
-    int cut = 0;           ///< chords that cross the chosen level
+    int faces = 0;  ///< polygons in the band
+    int cut = 0;    ///< chords that cross the chosen level
     int nodes = 0;
     int arcs = 0;
-    int linear_steps = 0;  ///< times that lambda fell
-    int passes = 0;        ///< relaxations of the graph
-    int iterations = 0;    ///< done, over the whole call
+    int linear_steps = 0;                   ///< times that lambda fell
+    int passes = 0;                         ///< relaxations of the graph
+    int iterations = 0;                     ///< done, over the whole call
     std::map<std::string, double> seconds;  ///< a stage, summed over the iterations
 };
 
 struct Result {
     Contour contour;
     Status status = Status::unchanged;
-    std::string reason;          ///< in words, where the given contour is returned
+    std::string reason;  ///< in words, where the given contour is returned
     double ratio = 0.0, initial_ratio = 0.0;
     double objective = 0.0, initial_objective = 0.0;
-    double salience = 0.0;       ///< minus the ratio over K of the best found, even where the given contour is returned
-    double lower_bound = 0.0;    ///< no contour of the last iteration's graph, nor the given one, has a lower objective
-    double gap = 0.0;            ///< objective of the best found minus lower_bound, never negative
-    std::vector<double> history; ///< the objective before the first and after each iteration
+    double salience = 0.0;        ///< minus the ratio over K of the best found, even where the given contour is returned
+    double lower_bound = 0.0;     ///< no contour of the last iteration's graph, nor the given one, has a lower objective
+    double gap = 0.0;             ///< objective of the best found minus lower_bound, never negative
+    std::vector<double> history;  ///< the objective before the first and after each iteration
     Scales scales;
     Statistics statistics;
 };
@@ -50,12 +51,14 @@ using Progress = std::function<bool(double)>;
 /// Moves a contour to the one of least ratio in a band around it (chapter 4).
 ///
 /// `scales`: those of an earlier result, to go on from it; none: of this contour.
-/// @throws InvalidInput for options out of range and contours that are no simple loop along real edges inside the mesh.
-Result optimize(const Surface& surface, const Contour& contour, const Options& options = {}, const Scales* scales = nullptr,
-                const Progress& progress = {});
+/// @throws InvalidInput for options and wishes out of range and for contours that are not simple or not inside the mesh.
+/// @throws Infeasible where no contour of the band has all required elements.
+Result optimize(const Surface& surface, const Contour& contour, const Options& options = {}, const Wishes& wishes = {},
+                const Scales* scales = nullptr, const Progress& progress = {});
 
-/// The contour's ratio, without optimising.
-Measure measure(const Surface& surface, const Contour& contour, const Options& options = {}, const Scales* scales = nullptr);
+/// The contour's ratio, without optimising. Of the wishes, the attractors and the region term weigh.
+Measure measure(const Surface& surface, const Contour& contour, const Options& options = {}, const Wishes& wishes = {},
+                const Scales* scales = nullptr);
 
 /// The curvatures at all vertices; without scales, h is the whole surface's mean edge length.
 std::vector<VertexCurvature> curvature(const Surface& surface, const Options& options = {}, const Scales* scales = nullptr);
@@ -67,6 +70,7 @@ struct SearchSpace {
     Flow flow;
     ContourGraph graph;
 };
-SearchSpace search_space(const Surface& surface, const Contour& contour, const Options& options = {}, const Scales* scales = nullptr);
+SearchSpace search_space(const Surface& surface, const Contour& contour, const Options& options = {}, const Wishes& wishes = {},
+                         const Scales* scales = nullptr);
 
 }  // namespace mrc

@@ -8,24 +8,47 @@ namespace mrc {
 
 enum class FlowKind { gates, arc_length, harmonic };
 enum class Feature { valley, ridge };
+enum class RegionSide { left, right };
+enum class Ends { edges, vertices, border };
+enum class LengthMeasure { arc, edges };
+enum class Denominator { length, arcs };
 
 /// All settings of the method; each stage reads its own. Sections are those of Clements 2006.
 struct Options {
     // band, 4.2.1
     std::optional<int> width = 4;  ///< rings of faces to each side, at least 1; none: until topology stops the band
+    /// Besides, from the third ring on, only polygons all of whose vertices lie within this distance of the iteration's start, in
+    /// average radii of the contour's connected component.
+    std::optional<double> band_distance;
     // curvature, 3.4
     double curvature_radius = 1.6;     ///< of the disk B, in h, above 0
     double curvature_smoothing = 1.0;  ///< sigma of the tensor's Gaussian, in h; 0: no smoothing
     // flow, 4.2.3
-    FlowKind flow = FlowKind::gates;
+    FlowKind flow = FlowKind::harmonic;  ///< the best measured: it depends on no starting line
     // energy, 3.4
     double kappa0_factor = 3.0;       ///< kappa_0 over K, above 0
     double feature_exponent = 1.0;    ///< a: K |kappa / K|^a in the place of |kappa|
     double direction_exponent = 1.0;  ///< b: sign(c) |c|^b in the place of a cosine c
     Feature feature = Feature::valley;
     double max_turn = std::numbers::pi / 2;  ///< radians in the tangent plane; arcs that turn more are pruned
-    // iteration, 5.3
-    int iterations = 1;
+    double anchor = 0.0;                     ///< holds the contour near the given one: a far feature must be worth the way
+    std::optional<double> feature_clamp;     ///< quantile in (0, 1) of the negative kappa_min at which their size is cut off
+    double crease = 0.0;                     ///< pull of crisp creases, seen at their own edges
+    // region term, 6.1.2
+    double region_weight = 0.0;                 ///< of the change of the enclosed density, in K / L0
+    RegionSide region_side = RegionSide::left;  ///< which side of the given direction counts as enclosed
+    // length bias, 6.1.1
+    double length_bias = 0.0;   ///< beta: weight of length / L0 beside ratio / K
+    double length_floor = 0.0;  ///< below this share of L0 nothing is gained by shrinking
+    LengthMeasure length_measure = LengthMeasure::arc;
+    Denominator denominator = Denominator::length;
+    Ends ends = Ends::edges;  ///< open curves, 4.6: what is held, the first and last edge, their end vertices, or only the border
+    // refinement, 3.2, and iteration, 5.3 and 5.6
+    int refinement = 0;          ///< k, the Steiner points put on each edge; 0: contours keep to mesh edges
+    int regular_iterations = 0;  ///< iterations along mesh edges first
+    int iterations = 1;          ///< then with `refinement`; each kind ends early where nothing moves
+    /// Where the best found has less salience than this, there is nothing concave to find and the given contour stays.
+    std::optional<double> min_salience;
 
     /// @throws InvalidInput that names the option, its value and its range.
     void check() const;

@@ -22,27 +22,32 @@ using PatchMesh = OpenMesh::TriMesh_ArrayKernelT<PatchTraits>;
 /// where a ring is the polygons that share a vertex with the ring before. Elements are numbered from the contour outwards.
 struct Patch {
     PatchMesh mesh;
-    std::vector<int> vertex;         ///< surface vertex of each patch vertex
-    std::vector<int> halfedge;       ///< surface half-edge of each patch half-edge, -1 on the patch's border
-    std::vector<int> polygon;        ///< local polygon of each patch face; a polygon's faces are consecutive
-    std::vector<int> polygon_face;   ///< surface face of each local polygon
-    std::vector<int> first_face;     ///< patch faces of local polygon p: first_face[p] up to first_face[p + 1]
-    std::vector<char> diagonal;      ///< of each patch edge: true where the triangulation alone put it
-    std::vector<double> distance;    ///< of each patch vertex: along the surface from the contour
-    std::vector<int> contour;        ///< patch vertices of the contour, in order
+    std::vector<int> vertex;        ///< surface vertex of each patch vertex
+    std::vector<int> halfedge;      ///< surface half-edge of each patch half-edge, -1 on the patch's border
+    std::vector<int> polygon;       ///< local polygon of each patch face; a polygon's faces are consecutive
+    std::vector<int> polygon_face;  ///< surface face of each local polygon
+    std::vector<int> first_face;    ///< patch faces of local polygon p: first_face[p] up to first_face[p + 1]
+    std::vector<char> diagonal;     ///< of each patch edge: true where the triangulation alone put it
+    std::vector<char> border_edge;  ///< of each patch edge: true on the border of the mesh, where no contour runs
+    std::vector<double> distance;   ///< of each patch vertex: along the surface from the contour as given
+    Contour given;                  ///< the contour as given
+    std::vector<int> contour;       ///< patch vertices of the contour, or of the nearest simple one along mesh edges, in order
     bool closed = true;
 
     int polygon_count() const { return static_cast<int>(polygon_face.size()); }
     bool diagonal_halfedge(int h) const { return diagonal[h / 2] != 0; }
 };
 
-/// @throws InvalidInput where the contour is no simple loop (curve) along real edges with a usable polygon on both sides; it names
-/// the elements.
-void check_contour(const Surface& surface, const Contour& contour);
+/// The contour with its ends of edges written as vertices.
+/// @throws InvalidInput where it is no simple loop (curve) on the surface's edges and across its faces, with a usable polygon on
+/// one side at least, and not on the border; it names the elements.
+Contour checked_contour(const Surface& surface, const Contour& contour);
 
-/// Cuts out the neighbourhood of a contour along mesh edges.
+/// True where a refined contour has a simple contour along mesh edges beside it, from which a band can grow.
+bool has_neighbour_along_edges(const Surface& surface, const Contour& contour);
+
+/// Cuts out the neighbourhood of a contour that `checked_contour` gave.
 /// `rings`: how far the patch reaches; none: to the whole connected component.
-/// @throws InvalidInput as check_contour.
 Patch make_patch(const Surface& surface, const Contour& contour, std::optional<int> rings);
 
 }  // namespace mrc

@@ -5,6 +5,8 @@
 #include <mrc/options.h>
 #include <mrc/surface.h>
 
+#include <limits>
+
 namespace mrc {
 
 /// The scales of a contour, fixed before its first iteration at the contour as given.
@@ -13,8 +15,9 @@ struct Scales {
     double K = 0.0;        ///< area-weighted mean of |kappa_min| over those vertices (ridge: |kappa_max|), at least 0.01 / L0
     double kappa_0 = 0.0;  ///< eq. 3.2's constant: kappa0_factor K
     double L0 = 0.0;       ///< length of the contour
-    int n0 = 0;            ///< its number of arcs
-    Contour given;         ///< the contour itself
+    double clamp = std::numeric_limits<double>::infinity();  ///< |kappa_min| (ridge: |kappa_max|) of features is cut off here
+    int n0 = 0;                                              ///< its number of arcs, with the run's Steiner points
+    Contour given;                                           ///< the contour itself
 };
 
 double contour_length(const Surface& surface, const Contour& contour);
@@ -24,6 +27,7 @@ double contour_length(const Surface& surface, const Contour& contour);
 double mean_edge_length(const Surface& surface, const Contour& contour);
 
 /// `field` must be made with h = mean_edge_length(surface, contour).
-Scales contour_scales(const Surface& surface, const CurvatureField& field, double h, const Contour& contour, const Options& options);
+Scales contour_scales(const Surface& surface, const CurvatureField& field, double h, const Contour& contour,
+                      const Options& options);
 
 }  // namespace mrc

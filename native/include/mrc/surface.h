@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -12,11 +13,11 @@ namespace mrc {
 
 /// The arrays that a surface is made from; they are copied, so the caller may change them afterwards.
 struct SurfaceArrays {
-    std::span<const double> positions;      ///< x, y, z of each vertex
-    std::span<const int32_t> face_offsets;  ///< one more than there are faces; empty: every face is a triangle
-    std::span<const int32_t> face_vertices; ///< face i is face_vertices[face_offsets[i] .. face_offsets[i + 1])
-    std::span<const int32_t> triangles;     ///< n - 2 vertex triples for a face of n, in face order; empty: made here
-    std::span<const int32_t> hidden_faces;  ///< ids of faces that no band enters
+    std::span<const double> positions;       ///< x, y, z of each vertex
+    std::span<const int32_t> face_offsets;   ///< one more than there are faces; empty: every face is a triangle
+    std::span<const int32_t> face_vertices;  ///< face i is face_vertices[face_offsets[i] .. face_offsets[i + 1])
+    std::span<const int32_t> triangles;      ///< n - 2 vertex triples for a face of n, in face order; empty: made here
+    std::span<const int32_t> hidden_faces;   ///< ids of faces that no band enters
 };
 
 /// A validated, immutable mesh of polygons with its triangulation and adjacency.
@@ -72,6 +73,10 @@ class Surface {
     /// True where a and b are the ends of a real edge, in whichever direction its faces run.
     bool real_edge(int a, int b) const { return find_halfedge(a, b) >= 0 || find_halfedge(b, a) >= 0; }
 
+    /// The area-weighted mean distance of the face centroids of a vertex's connected component from their centroid. The first call
+    /// makes it for all components.
+    double average_radius(int vertex) const;
+
     /// Calls visit(neighbour, edge) for the real edges at a vertex; an irregular edge may come more than once.
     template <class Visit>
     void for_each_real_edge(int vertex, Visit&& visit) const {
@@ -90,6 +95,8 @@ class Surface {
     std::vector<int> triangle_faces_, twins_, edges_, outgoing_offsets_, outgoing_;
     std::vector<uint8_t> diagonal_, regular_, hidden_;
     int edge_count_ = 0;
+    struct Components;
+    std::shared_ptr<Components> components_;
 
     void copy_and_validate(const SurfaceArrays& arrays);
     void triangulate(const SurfaceArrays& arrays);

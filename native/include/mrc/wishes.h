@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <mrc/surface.h>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace mrc {
+
+/// A soft constraint (4.5): a place that contours are drawn to, or from where strength is negative.
+struct Attractor {
+    int vertex = -1;
+    double radius = 0.0;          ///< along the surface, above 0; nothing is felt beyond
+    double strength = 1.0;        ///< of the pull, in units of K
+    std::optional<double> sigma;  ///< of its Gaussian; none: half the radius
+};
+
+/// What a user asks of a contour besides being good.
+struct Wishes {
+    std::vector<int> required_vertices;              ///< vertices that the contour must pass (4.4)
+    std::vector<std::array<int, 2>> required_edges;  ///< real edges that it must run along
+    std::vector<Attractor> attractors;
+    std::vector<std::array<int, 2>> barriers;  ///< real edges that neither band nor contour crosses
+    std::vector<double> region_density;        ///< of each face, per area, for the region term (6.1.2); empty: none
+
+    bool constrains() const { return !required_vertices.empty() || !required_edges.empty(); }
+    /// @throws InvalidInput that names the element: out of range, no real edge, radius or sigma not above 0.
+    void check(const Surface& surface) const;
+};
+
+/// True where the contour has all required elements.
+bool meets(const Contour& contour, const Wishes& wishes);
+
+/// @throws InvalidInput where the contour crosses a barrier.
+void check_barriers(const Surface& surface, const Contour& contour, const Wishes& wishes);
+
+}  // namespace mrc

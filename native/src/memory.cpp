@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "memory.h"
+
+#ifdef _WIN32
+#include <windows.h>
+#else
+#include <unistd.h>
+#endif
+
+#include <cmath>
+#include <sstream>
+
+namespace mrc {
+namespace {
+
+double free_bytes() {
+#ifdef _WIN32
+    MEMORYSTATUSEX status{};
+    status.dwLength = sizeof(status);
+    return GlobalMemoryStatusEx(&status) ? static_cast<double>(status.ullAvailPhys) : HUGE_VAL;
+#elif defined(_SC_AVPHYS_PAGES)
+    return static_cast<double>(sysconf(_SC_AVPHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+#else
+    return HUGE_VAL;
+#endif
+}
+
+}  // namespace
+
+// A triangle has 3 k^2 + 3 k chords inside and k + 1 on each side, which two triangles share (3.2); each is a node once. Arcs a node
+// were counted on real bands: about 2 for k = 0 and one more for each further k.
+void check_graph_size(double triangles, int steiner) {
+    const double k = steiner;
+    const double nodes = triangles * (3.0 * k * k + 4.5 * k + 1.5), arcs = nodes * (2.0 + 1.25 * k);
+    const double bytes = 200.0 * nodes + 24.0 * arcs;
+    if (arcs < 2147483648.0 && bytes < free_bytes()) return;
+    std::ostringstream message;
+    message.precision(3);
+    message << "the graph would have about " << nodes << " nodes and " << arcs << " arcs and need " << bytes / 1e9
+            << " GB: lower refinement (now " << steiner << ") or width";
+    throw InvalidInput(message.str());
+}
+
+}  // namespace mrc

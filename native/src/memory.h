@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <mrc/types.h>
+
+namespace mrc {
+
+/// Refuses a graph that would not fit before it is built.
+/// @throws InvalidInput with the estimate and what to lower, above 2^31 arcs or more memory than is free.
+void check_graph_size(double triangles, int steiner);
+
+}  // namespace mrc

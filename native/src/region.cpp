@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <mrc/region.h>
+
+#include "guide.h"
+
+#include <mrc/curvature.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+
+namespace mrc {
+namespace {
+
+double triangle_area(const Surface& surface, int triangle) {
+    const auto& v = surface.triangle(triangle);
+    return 0.5 * (surface.position(v[1]) - surface.position(v[0])).cross(surface.position(v[2]) - surface.position(v[0])).norm();
+}
+
+/// What a triangle holds: its share of its polygon's area, which no triangulation changes, times the density.
+double content(const Surface& surface, std::span<const double> density, int triangle) {
+    const int face = surface.triangle_face(triangle);
+    double sum = 0.0;
+    for (int t = surface.first_triangle(face); t < surface.first_triangle(face + 1); ++t) sum += triangle_area(surface, t);
+    if (sum == 0.0) return 0.0;
+    return density[face] * polygon_area_vector(surface, face).norm() * triangle_area(surface, triangle) / sum;
+}
+
+/// A spanning tree of triangles, root first: each but the root hands what it has gathered over to the one before it.
+struct Tree {
+    std::vector<int> triangles;
+    std::vector<int> leaving;  // the half-edge through which each hands over; of the root, -1
+};
+
+/// Breadth first over the triangles that `inside` admits.
+template <class Inside>
+Tree grow_tree(const Surface& surface, const std::vector<int>& seeds, Inside&& inside) {
+    Tree tree;
+    std::unordered_map<int, char> met;
+    const auto enter = [&](int triangle, int leaving) {
+        if (!met.emplace(triangle, 1).second) return;
+        tree.triangles.push_back(triangle);
+        tree.leaving.push_back(leaving);
+    };
+    for (const int seed : seeds) enter(seed, -1);
+    for (std::size_t i = 0; i < tree.triangles.size(); ++i) {
+        for (int h = 3 * tree.triangles[i]; h < 3 * tree.triangles[i] + 3; ++h) {
+            const int twin = surface.twin(h);
+            if (twin >= 0 && inside(twin / 3)) enter(twin / 3, twin);
+        }
+    }
+    return tree;
+}
+
+/// Gathers the contents towards the root: the form on the edge that a triangle leaves by makes up its circulation.
+EdgeForm gather(const Surface& surface, const Tree& tree, std::span<const double> density) {
+    EdgeForm form(surface);
+    for (std::size_t i = tree.triangles.size(); i-- > 0;) {
+        if (tree.leaving[i] < 0) continue;
+        const int first = 3 * tree.triangles[i];
+        const double circulation = form.on(first) + form.on(first + 1) + form.on(first + 2);
+        form.add(tree.leaving[i], content(surface, density, tree.triangles[i]) - circulation);
+    }
+    return form;
+}
+
+/// The barycentric coordinates of a point on a triangle's border.
+std::array<double, 3> barycentric(const Surface& surface, int triangle, const SurfacePoint& p) {
+    std::array<double, 3> share{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const int v = surface.triangle(triangle)[i];
+        if (v == p.a) share[i] += 1.0 - p.t;
+        if (v == p.b) share[i] += p.t;
+    }
+    return share;
+}
+
+}  // namespace
+
+double EdgeForm::on(int halfedge) const {
+    const auto found = values_.find(lower(halfedge));
+    if (found == values_.end()) return 0.0;
+    return lower(halfedge) == halfedge ? found->second : -found->second;
+}
+
+void EdgeForm::add(int halfedge, double value) { values_[lower(halfedge)] += lower(halfedge) == halfedge ? value : -value; }
+
+// The integral of l_i dl_j - l_j dl_i from p to q is l_i(p) l_j(q) - l_j(p) l_i(q).
+double EdgeForm::along(const SurfacePoint& from, const SurfacePoint& to) const {
+    const int triangle = triangle_of_segment(*surface_, from, to);
+    if (triangle < 0) return 0.0;
+    const auto p = barycentric(*surface_, triangle, from), q = barycentric(*surface_, triangle, to);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3;
+        sum += on(3 * triangle + static_cast<int>(i)) * (p[i] * q[j] - p[j] * q[i]);
+    }
+    return sum;
+}
+
+double EdgeForm::along(const Contour& contour) const {
+    double sum = 0.0;
+    const std::size_t count = contour.points.size();
+    for (std::size_t i = 0; i + (contour.closed ? 0 : 1) < count; ++i)
+        sum += along(contour.points[i], contour.points[(i + 1) % count]);
+    return sum;
+}
+
+EdgeForm region_form(const Surface& surface, const Patch& patch, const Band& band, const Flow& flow,
+                     std::span<const double> density, double reached) {
+    std::unordered_map<int, char> inside;
+    for (const auto face : patch.mesh.faces()) {
+        if (!band.face[face.idx()]) continue;
+        const auto h = patch.mesh.halfedge_handle(face);
+        inside.emplace(patch.halfedge[h.idx()] / 3, 1);
+    }
+    // The root hands over through the band's border, so every triangle's circulation is made up.
+    int root = -1, exit = -1;
+    for (const auto h : patch.mesh.halfedges()) {
+        const int here = patch.halfedge[h.idx()], there = patch.halfedge[patch.mesh.opposite_halfedge_handle(h).idx()];
+        if (here < 0 || !inside.contains(here / 3) || (there >= 0 && inside.contains(there / 3))) continue;
+        root = here / 3;
+        exit = here;
+        break;
+    }
+    if (root < 0) return EdgeForm(surface);
+    Tree tree = grow_tree(surface, {root}, [&](int t) { return inside.contains(t); });
+    tree.leaving[0] = exit;
+    EdgeForm form = gather(surface, tree, density);
+    const double gauge = reached - form.along(patch.given);
+    for (const auto edge : patch.mesh.edges()) {
+        if (!band.edge[edge.idx()]) continue;
+        const int h = 2 * edge.idx(), here = patch.halfedge[h];
+        const double share = gauge * flow.increment(patch.mesh, h);
+        here >= 0 ? form.add(here, share) : form.add(patch.halfedge[h + 1], -share);
+    }
+    return form;
+}
+
+double enclosed_change(const Surface& surface, std::span<const double> density, const Contour& from, const Contour& to) {
+    std::vector<int> seeds;
+    for (const Contour* contour : {&from, &to}) {
+        for (const SurfacePoint& p : contour->points) {
+            for (const int h : surface.outgoing(p.a)) seeds.push_back(h / 3);
+        }
+    }
+    const auto everywhere = [](int) { return true; };
+    const int farthest = grow_tree(surface, seeds, everywhere).triangles.back();
+    const EdgeForm form = gather(surface, grow_tree(surface, {farthest}, everywhere), density);
+    return form.along(to) - form.along(from);
+}
+
+}  // namespace mrc

@@ -1,0 +1,238 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Small random searches, and the comparison of what the module finds with the independent solver's optimum."""
+
+from functools import cached_property
+from itertools import pairwise
+from math import inf, isfinite, pi
+
+import meshes
+import mrcontour as mrc
+import numpy as np
+import pytest
+from conftest import surface_of
+from contour_energy import EXTRA, PointEnergy, edge_of, point_on, points_of, vertex, with_steiner_points
+from contour_graph import ContourGraph
+
+
+def seeds(count, in_full=200):
+    """Parametrizes by seed: `count` cases always, the rest of them in a full run only."""
+    rest = [pytest.param(seed, marks=pytest.mark.long) for seed in range(count, in_full)]
+    return pytest.mark.parametrize("seed", [*range(count), *rest])
+
+
+def annulus(rng):
+    """Triangles, quads or both."""
+    rings, columns = int(rng.integers(3, 5)), int(rng.integers(4, 7))
+    mesh = meshes.jittered_annulus(rng, rings, columns, split_share=rng.choice([0.0, 0.5, 1.0]))
+    return mesh, meshes.zigzag_contour(rng, columns, 1, rings - 2)
+
+
+def cylinder(rng):
+    """Regular quads, with level edges in the harmonic flow; exactly regular or with noise in positions."""
+    rings, columns = int(rng.integers(3, 6)), int(rng.integers(4, 7))
+    noise = rng.choice([0.0, 0.1])
+    mesh = meshes.tube(rng.uniform(0.8, 1.4, rings), columns, step=rng.uniform(0.4, 1.0), rng=rng, noise=noise)
+    return mesh, meshes.zigzag_contour(rng, columns, 1, rings - 2, step_chance=0.4)
+
+
+def torus(rng):
+    rows, columns = int(rng.integers(4, 7)), int(rng.integers(4, 6))
+    mesh = meshes.torus(rows, columns, rng=rng, split_share=rng.choice([0.0, 0.5, 1.0]), noise=0.1)
+    return mesh, meshes.zigzag_contour(rng, columns, 1, 2)
+
+
+def chain(rng):
+    """An open chain inside an annulus, a cylinder or a torus."""
+    mesh, contour = (annulus, cylinder, torus)[int(rng.integers(3))](rng)
+    length = int(rng.integers(3, len(contour)))
+    return mesh, np.roll(contour, rng.integers(len(contour)))[:length].copy()
+
+
+def crossing_chain(rng):
+    """A chain from border to border, or from a border to a vertex inside."""
+    rows, columns = int(rng.integers(4, 6)), int(rng.integers(4, 7))
+    mesh = meshes.jittered_annulus(rng, rows, columns, split_share=rng.choice([0.0, 0.5, 1.0]))
+    column, path = int(rng.integers(columns)), []
+    for row in range(rows):
+        path.append(row * columns + column)
+        if 0 < row < rows - 1 and rng.random() < 0.4:
+            column = (column + int(rng.choice([-1, 1]))) % columns
+            path.append(row * columns + column)
+    if rng.random() < 0.3:
+        path = path[:-1]
+    return mesh, np.array(path[:: int(rng.choice([-1, 1]))], dtype=np.int32)
+
+
+def random_energy(rng):
+    """Options of eq. 3.2 and of curvature, half of the time the defaults."""
+    options = {"feature": ("valley", "ridge")[int(rng.integers(2))]}
+    if rng.random() < 0.5:
+        options |= {
+            "feature_exponent": rng.uniform(0.4, 2.0),
+            "direction_exponent": rng.uniform(0.5, 3.0),
+            "kappa0_factor": rng.uniform(0.5, 6.0),
+            "curvature_radius": rng.uniform(0.7, 2.2),
+            "curvature_smoothing": float(rng.choice([0.0, 0.4, 1.3])),
+            "max_turn": rng.uniform(0.4 * pi, 0.8 * pi),
+        }
+    return options
+
+
+class Case:
+    """One search: by the module, and by enumeration or the independent solver."""
+
+    def __init__(self, mesh, contour, options=None, closed=True, dense=False, **wishes):
+        self.mesh, self.contour, self.closed, self.wishes = mesh, contour, closed, wishes
+        self.options = {**EXTRA, "flow": "harmonic", "width": 2, **(options or {})}
+        self.surface = surface_of(mesh)
+        points = [vertex(v) for v in contour]
+        self.given = self.dense(points)
+        self.passed = self.given if dense else points
+
+    def dense(self, points):
+        """With the points of the run's k, with which everything is measured."""
+        return with_steiner_points(points, self.closed, self.options["refinement"])
+
+    @property
+    def module_options(self):
+        return mrc.Options(**self.options)
+
+    def contour_arguments(self, points=None):
+        points = self.passed if points is None else points
+        return {
+            "edge_vertices": np.array([p[:2] for p in points], dtype=np.int32),
+            "edge_parameters": np.array([p[2] / 5040 for p in points]),
+            "closed": self.closed,
+            "options": self.module_options,
+        }
+
+    def optimize(self):
+        return mrc.optimize(self.surface, **self.contour_arguments(), **self.wishes)
+
+    @cached_property
+    def space(self):
+        return mrc.search_space(self.surface, **self.contour_arguments())
+
+    @cached_property
+    def energy(self):
+        return PointEnergy(self.mesh, self.given, self.closed, self.options, self.wishes.get("attractors", ()))
+
+    @cached_property
+    def graph(self):
+        return ContourGraph(self.energy, self.space, None if self.closed else self.ends())
+
+    def ends(self):
+        """Which chords begin and which end a path."""
+        pieces = self.border_pieces() if self.options["ends"] == "border" else []
+        first, last = self.given[0], self.given[-1]
+        at_first = next((piece for piece in pieces if first in piece and last not in piece), {first})
+        at_last = next((piece for piece in pieces if last in piece and first not in piece), {last})
+        return (lambda p, q: p in at_first), (lambda p, q: q in at_last)
+
+    def border_pieces(self):
+        """The pieces of mesh border in the band: sets of points."""
+        edges = [edge for i in self.space["faces"].tolist() for edge in self.energy.geometry.face_edges[i]]
+        open_edges = [edge for edge in edges if edge[::-1] not in self.energy.geometry.left_face]
+        pieces = []
+        for a, b in open_edges:
+            k = self.options["refinement"]
+            fresh = {vertex(a), vertex(b), *(point_on(a, b, i / (k + 1)) for i in range(1, k + 1))}
+            touched = [piece for piece in pieces if piece & fresh]
+            pieces = [piece for piece in pieces if not piece & fresh] + [fresh.union(*touched)]
+        return pieces
+
+    def required(self):
+        """Vertices and edges; the first and last edge of an open contour are held with ends="edges"."""
+        edges = [tuple(map(int, edge)) for edge in self.wishes.get("required_edges", ())]
+        if not self.closed and self.options["ends"] == "edges":
+            edges += [tuple(map(int, self.contour[:2])), tuple(map(int, self.contour[-2:]))]
+        return [int(v) for v in self.wishes.get("required_vertices", ())], list(dict.fromkeys(edges))
+
+    def holds(self, points):
+        vertices, edges = self.required()
+        ring = with_steiner_points(points, self.closed, 0)
+        chords = list(pairwise([*ring, ring[0]] if self.closed else ring))
+        on_edge = {}
+        for p, q in chords:
+            on_edge[edge_of(p, q)] = on_edge.get(edge_of(p, q), 0.0) + self.energy.size(p, q)
+        whole = all(
+            abs(on_edge.get(tuple(sorted(edge)), 0.0) - self.energy.geometry.neighbours[edge[0]][edge[1]]) < 1e-9
+            for edge in edges
+        )
+        return whole and all(vertex(v) in ring for v in vertices)
+
+    def given_objective(self):
+        return self.energy.objective(*self.energy.sums(self.given))
+
+    def expected(self):
+        """The least objective: of the graph, and of the given contour where it is feasible."""
+        least = self.graph.best(*self.required())
+        if isfinite(least):
+            least = self.energy.objective(least, 1.0) if self.options["length_bias"] == 0 else least
+        return min(least, self.given_objective() if self.holds(self.given) else inf)
+
+    def close(self, one, two):
+        return abs(one - two) <= 1e-9 * max(abs(one), abs(two)) + 1e-10 * self.unit()
+
+    def unit(self):
+        return 1.0 if self.options["length_bias"] else self.energy.K
+
+
+def check_scales(case, scales):
+    energy = case.energy
+    for name in ("h", "K", "kappa_0", "L0", "n0", "clamp"):
+        one, two = getattr(scales, name), getattr(energy, name)
+        assert one == two or abs(one - two) <= 1e-10 * two, name
+
+
+def check_same_graph(case):
+    """Node by node and arc by arc, f and g included."""
+    space, graph = case.space, case.graph
+    points = [point_on(a, b, t) for (a, b), t in zip(space["points"].tolist(), space["parameters"], strict=True)]
+    place = points.__getitem__ if any(p[2] for p in points) else vertex
+    names = [(place(a), place(b)) for a, b in space["nodes"].tolist()]
+    assert set(names) == {node[:2] for node in graph.nodes}
+    expected = {
+        (graph.nodes[i][:2], graph.nodes[j][:2]): (f, g) for i, arcs in enumerate(graph.arcs) for j, f, g in arcs
+    }
+    found = {
+        (names[i], names[j]): fg
+        for (i, j), *fg in zip(space["arcs"].tolist(), space["f"].tolist(), space["g"].tolist(), strict=True)
+    }
+    assert set(found) == set(expected)
+    for arc, (f, g) in found.items():
+        assert abs(f - expected[arc][0]) <= 1e-9 * case.energy.K * (g + abs(f)), arc
+        assert abs(g - expected[arc][1]) <= 1e-10 * g, arc
+
+
+def check_optimum(case, expected=None):
+    """The module's objective is the optimum, and its result has that objective by the independent measure and by its
+    own. Returns the result, or None where no contour is feasible and the module says so."""
+    expected = case.expected() if expected is None else expected
+    if expected == inf:
+        with pytest.raises(mrc.Infeasible, match=r"\d"):
+            case.optimize()
+        return None
+    result = case.optimize()
+    check_scales(case, result.scales)
+    points, energy = points_of(result), case.energy
+    F, G = energy.sums(case.dense(points))
+    assert case.close(F / G, result.ratio)
+    assert case.close(energy.objective(F, G), result.objective)
+    assert case.holds(points)
+    assert case.close(result.objective, expected), f"{result.objective} instead of {expected}: {points}"
+    if case.holds(case.given):
+        assert result.status in ("improved", "unchanged")
+        assert case.close(result.initial_objective, case.given_objective())
+    else:
+        assert result.status == "constrained"
+    assert 0 <= result.gap <= 1e-9 * (abs(result.objective) + case.unit())
+    again = mrc.measure(
+        case.surface,
+        **case.contour_arguments(points),
+        scales=result.scales,
+        attractors=case.wishes.get("attractors", ()),
+    )
+    assert abs(again.ratio - result.ratio) <= 1e-12 * abs(result.ratio) + 1e-15 * case.energy.K
+    assert abs(again.objective - result.objective) <= 1e-12 * abs(result.objective) + 1e-15 * case.unit()
+    return result

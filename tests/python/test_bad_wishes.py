@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bad input to refinement, open contours, constraints and weights: an error that names what is wrong."""
+
+import meshes
+import mrcontour as mrc
+import numpy as np
+import pytest
+from conftest import surface_of
+
+COLUMNS = 8
+
+
+def tube(rows=9):
+    return meshes.tube(1 + 0.1 * np.cos(np.arange(rows)), COLUMNS, rng=np.random.default_rng(3), noise=0.02)
+
+
+def ring(row):
+    return row * COLUMNS + np.arange(COLUMNS, dtype=np.int32)
+
+
+def optimize(contour=None, closed=True, options=None, mesh=None, **wishes):
+    options = mrc.Options(**{"flow": "harmonic", "width": 2, **(options or {})})
+    contour = ring(4) if contour is None else contour
+    return mrc.optimize(surface_of(mesh or tube()), contour, closed=closed, options=options, **wishes)
+
+
+def diagonal(mesh):
+    """A diagonal in the band, between rows 4 and 5."""
+    real = {tuple(edge) for edge in mesh.real_edges().tolist()}
+    for triangle in mesh.triangles.tolist():
+        for a, b in zip(triangle, triangle[1:] + triangle[:1], strict=True):
+            if {a // COLUMNS, b // COLUMNS} == {4, 5} and tuple(sorted((a, b))) not in real:
+                return a, b
+    raise AssertionError("no diagonal")
+
+
+WISHES = {
+    "required vertex out of range": ({"required_vertices": [72]}, "72"),
+    "required vertex negative": ({"required_vertices": [-1]}, "-1"),
+    "required vertex outside the band": ({"required_vertices": [70]}, "70"),
+    "required vertices not whole": ({"required_vertices": [33.5]}, "required_vertices"),
+    "required edge outside the band": ({"required_edges": [(64, 65)]}, "6[45]"),
+    "required edge out of range": ({"required_edges": [(33, 100)]}, "100"),
+    "required edge of one vertex": ({"required_edges": [(33, 33)]}, "33"),
+    "required edge that is none": ({"required_edges": [(33, 36)]}, "33.*36|36.*33"),
+    "required edge that is a diagonal": (
+        {"required_edges": [diagonal(tube())]},
+        "{}".format("|".join(map(str, diagonal(tube())))),
+    ),
+    "required edges of three": ({"required_edges": [(33, 34, 35)]}, "required_edges"),
+    "attractor out of range": ({"attractors": [(72, 1.0, 1.0)]}, "72"),
+    "attractor of negative radius": ({"attractors": [(33, -1.0, 1.0)]}, "radius"),
+    "attractor of radius NaN": ({"attractors": [(33, np.nan, 1.0)]}, "radius"),
+    "attractor of infinite strength": ({"attractors": [(33, 1.0, np.inf)]}, "strength"),
+    "attractor of strength NaN": ({"attractors": [(33, 1.0, np.nan)]}, "strength"),
+    "attractor of negative sigma": ({"attractors": [(33, 1.0, 1.0, -1.0)]}, "sigma"),
+    "attractor of two numbers": ({"attractors": [(33, 1.0)]}, "attractor"),
+    "barrier that is no edge": ({"barriers": [(33, 36)]}, "33.*36|36.*33"),
+    "barrier out of range": ({"barriers": [(33, 100)]}, "100"),
+}
+
+
+@pytest.mark.parametrize("name", WISHES)
+def test_wishes(name):
+    wishes, pattern = WISHES[name]
+    with pytest.raises((ValueError, TypeError), match=pattern):
+        optimize(**wishes)
+
+
+OPTIONS = {
+    "negative k": {"refinement": -1},
+    "clamp 0": {"feature_clamp": 0.0},
+    "clamp 1": {"feature_clamp": 1.0},
+    "clamp above 1": {"feature_clamp": 1.5},
+    "clamp NaN": {"feature_clamp": np.nan},
+    "negative anchor": {"anchor": -0.1},
+    "infinite anchor": {"anchor": np.inf},
+    "negative crease": {"crease": -1.0},
+    "negative length_bias": {"length_bias": -1.0},
+    "length_bias NaN": {"length_bias": np.nan},
+    "negative length_floor": {"length_floor": -1.0},
+    "negative band_distance": {"band_distance": -1.0},
+    "band_distance NaN": {"band_distance": np.nan},
+    "negative regular_iterations": {"regular_iterations": -1},
+    "unknown ends": {"ends": "corners"},
+    "unknown length_measure": {"length_measure": "steps"},
+    "unknown denominator": {"denominator": "edges"},
+}
+
+
+@pytest.mark.parametrize("name", OPTIONS)
+def test_option_values(name):
+    option = next(iter(OPTIONS[name]))
+    with pytest.raises(ValueError, match=option):
+        mrc.Options(**OPTIONS[name])
+
+
+@pytest.mark.parametrize("pair", [("length", "edges"), ("arcs", "arc")])
+def test_length_bias_wants_one_measure(pair):
+    options = {"denominator": pair[0], "length_measure": pair[1]}
+    with pytest.raises(ValueError, match="length_measure|denominator"):
+        optimize(options={**options, "length_bias": 0.5})
+    optimize(options=options)
+
+
+@pytest.mark.parametrize("name", ["refinements", "end", "attractor", "min_saliency"])
+def test_unknown_options(name):
+    with pytest.raises(TypeError, match=name):
+        mrc.Options(**{name: 1})
+
+
+def test_open_ends_that_are_the_same():
+    with pytest.raises(ValueError, match="32"):
+        optimize([32, 33, 34, 35, 36, 37, 38, 39, 32], closed=False)
+
+
+def test_an_open_contour_needs_two_points():
+    with pytest.raises(ValueError, match="."):
+        optimize([32], closed=False)
+
+
+@pytest.mark.parametrize("k", [10**6, 2**31 - 1])
+def test_a_graph_that_does_not_fit_in_memory(k):
+    with pytest.raises(ValueError, match="(?i)byte|memory|GB|GiB|large|many"):
+        optimize(options={"refinement": k})
+
+
+def test_impossible_together():
+    """Two vertices on one level of the flow; the error names one of them."""
+    mesh = meshes.tube(np.ones(9), COLUMNS)
+    with pytest.raises(mrc.Infeasible, match=r"\d"):
+        optimize(mesh=mesh, required_vertices=[33, 49, 42, 26], options={"max_turn": 0.5})
+    assert issubclass(mrc.Infeasible, ValueError)
+
+
+def test_required_edges_that_cross_one_level():
+    mesh = meshes.tube(np.ones(9), COLUMNS)
+    with pytest.raises(mrc.Infeasible, match=r"\d"):
+        optimize(mesh=mesh, required_edges=[(33, 34), (41, 42)])
+
+
+def test_a_contour_across_a_barrier():
+    """It runs through the middles of the edges between two rows."""
+    mesh = meshes.tube(np.ones(9), COLUMNS, split_share=1.0)
+    between = [t for t in mesh.triangles.tolist() if {v // COLUMNS for v in t} == {4, 5}]
+    crossed = {frozenset((a, b)) for t in between for a in t for b in t if a // COLUMNS == 4 and b // COLUMNS == 5}
+    ends = sorted((min(e), max(e)) for e in crossed)
+    ends.sort(key=lambda e: ((e[0] % COLUMNS) + (e[1] - e[0] + 3) % COLUMNS - 3 + (e[0] % COLUMNS)) % (2 * COLUMNS))
+    points = {"edge_vertices": ends, "edge_parameters": [0.5] * len(ends), "options": mrc.Options(refinement=1)}
+    surface = surface_of(mesh)
+    mrc.optimize(surface, **points)
+    with pytest.raises(ValueError, match="barrier"):
+        mrc.optimize(surface, **points, barriers=[ends[3]])
+
+
+REFINED = {
+    "lengths differ": ([(32, 33), (33, 34)], [0.5], "edge_parameters"),
+    "parameter above 1": ([(v, v) for v in range(32, 39)] + [(39, 32)], [0] * 7 + [1.5], "1.5"),
+    "parameter negative": ([(v, v) for v in range(32, 39)] + [(39, 32)], [0] * 7 + [-0.5], "-0.5"),
+    "parameter NaN": ([(v, v) for v in range(32, 39)] + [(39, 32)], [0] * 7 + [np.nan], "nan|NaN|finite"),
+    "no edge": ([(v, v) for v in range(32, 39)] + [(39, 50)], [0] * 7 + [0.5], "39|50"),
+    "points of no common face": ([(32, 33), (36, 37), (34, 42)], [0.5, 0.5, 0.5], r"\d"),
+    "a point twice": ([(v, v) for v in range(32, 40)] + [(39, 39)], [0] * 9, "39"),
+}
+
+
+@pytest.mark.parametrize("name", REFINED)
+def test_refined_contours(name):
+    ends, parameters, pattern = REFINED[name]
+    with pytest.raises(ValueError, match=pattern):
+        mrc.optimize(surface_of(tube()), edge_vertices=ends, edge_parameters=parameters)
+
+
+def test_either_vertices_or_points():
+    with pytest.raises(ValueError, match="edge_vertices"):
+        mrc.optimize(surface_of(tube()), ring(4), edge_vertices=[(32, 32)], edge_parameters=[0.0])
+    with pytest.raises(ValueError, match="vertices"):
+        mrc.optimize(surface_of(tube()))
+
+
+def test_whole_surface_with_a_border_on_the_other_side():
+    """A disk with a hole: one side of the contour is a border at once, the other goes on to the border outside."""
+    rng = np.random.default_rng(2)
+    mesh = meshes.jittered_annulus(rng, 6, 9)
+    for k in (0, 1):
+        result = optimize(9 + np.arange(9), mesh=mesh, options={"width": None, "refinement": k})
+        assert np.isfinite(result.objective)
+        assert result.objective <= result.initial_objective

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Length bias (6.1.1) by arc length, against enumeration, and by the number of edges, against the dynamic programme of
+appendix A."""
+
+from math import inf
+
+import numpy as np
+import pytest
+from random_cases import Case, annulus, chain, check_optimum, cylinder, random_energy, seeds, torus
+
+FAMILIES = [annulus, cylinder, torus, chain]
+AFFORDABLE = 20000  # contours that the enumeration may visit
+
+
+def biased_case(seed, k, **more):
+    rng = np.random.default_rng([seed, k, len(more)])
+    family = FAMILIES[seed % 4]
+    while True:
+        mesh, contour = family(rng)
+        options = {
+            "refinement": k,
+            "width": int(rng.integers(1, 4)),
+            "ends": "vertices",
+            "length_bias": float(rng.choice([0.05, 0.5, 2.0, 10.0])),
+            "length_floor": float(rng.choice([0.0, 0.8, 1.1])),
+            **random_energy(rng),
+            **more,
+        }
+        case = Case(mesh, contour, options, closed=family is not chain, dense="denominator" in more)
+        if "denominator" in more or case.graph.count() <= AFFORDABLE:
+            return case
+
+
+@seeds(80)
+def test_by_arc_length(seed):
+    case = biased_case(seed, 0)
+    objective = case.energy.objective
+    least = min((objective(F, G) for _, F, G in case.graph.paths()), default=inf)
+    check_optimum(case, min(least, case.given_objective()))
+
+
+@pytest.mark.parametrize("k", [0, 1])
+@seeds(60)
+def test_by_number_of_edges(seed, k):
+    case = biased_case(seed, k, denominator="arcs", length_measure="edges")
+    least = case.graph.best_by_count(case.energy.objective)
+    check_optimum(case, min(least, case.given_objective()))

@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Refined contours (3.2, 4.3): the graph and its optimum, against an independent construction and solver."""
+
+import meshes
+import mrcontour as mrc
+import numpy as np
+import pytest
+from conftest import surface_of
+from contour_checks import crossings, on_surface
+from contour_energy import UNITS, points_of, with_steiner_points
+from random_cases import Case, annulus, check_optimum, check_same_graph, cylinder, random_energy, seeds, torus
+
+FAMILIES = [annulus, cylinder, torus]
+
+
+def refined_case(k, seed, **more):
+    rng = np.random.default_rng([k, seed])
+    mesh, contour = FAMILIES[seed % 3](rng)
+    flow = ("harmonic", "gates", "harmonic", "arc_length")[seed % 4]
+    options = {"refinement": k, "flow": flow, "width": int(rng.integers(1, 3)), **random_energy(rng), **more}
+    return Case(mesh, contour, options, dense=bool(seed % 5 == 4))
+
+
+@seeds(60)
+def test_optimum_with_one_steiner_point(seed):
+    case = refined_case(1, seed)
+    check_same_graph(case)
+    check_optimum(case)
+
+
+@seeds(60)
+def test_optimum_with_two_steiner_points(seed):
+    case = refined_case(2, seed)
+    check_same_graph(case)
+    check_optimum(case)
+
+
+# ---- laws
+
+
+def optimize(mesh, contour, **options):
+    return mrc.optimize(surface_of(mesh), contour, options=mrc.Options(flow="harmonic", **{"width": 3, **options}))
+
+
+def as_arguments(points):
+    return {
+        "edge_vertices": np.array([p[:2] for p in points], dtype=np.int32),
+        "edge_parameters": np.array([p[2] / UNITS for p in points]),
+    }
+
+
+def same_curve(one, two, reverse=False):
+    """Whether two closed results are the same points in the same order, whatever the start."""
+    one, two = points_of(one), points_of(two)
+    two = two[::-1] if reverse else two
+    if set(one) != set(two) or len(one) != len(two):
+        return False
+    start = two.index(one[0])
+    return one == two[start:] + two[:start]
+
+
+def test_more_points_are_no_worse(realistic):
+    """The optimum for k = 3 is at most the one for k = 1, expressed with the points of k = 3."""
+    _, mesh, contour = realistic
+    coarse, fine = optimize(mesh, contour, refinement=1), optimize(mesh, contour, refinement=3)
+    dense = with_steiner_points(points_of(coarse), True, 3)
+    options = mrc.Options(flow="harmonic", width=3, refinement=3)
+    measured = mrc.measure(surface_of(mesh), **as_arguments(dense), options=options, scales=fine.scales)
+    assert fine.ratio <= measured.ratio + 1e-12 / fine.scales.h
+
+
+@pytest.mark.parametrize("k", [1, 2, 4])
+def test_results_are_simple(realistic, k):
+    _, mesh, contour = realistic
+    points = points_of(optimize(mesh, contour, refinement=k))
+    assert on_surface(mesh, points, closed=True)
+    assert crossings(mesh, points, closed=True) == []
+
+
+@seeds(30, 60)
+def test_results_on_level_grids_are_simple(seed):
+    rng = np.random.default_rng(seed)
+    mesh = meshes.tube(rng.uniform(0.6, 1.4, 9), 8, step=0.5, rng=rng, noise=(0.0, 0.1)[seed % 2])
+    contour = meshes.zigzag_contour(rng, 8, 3, 5)
+    points = points_of(optimize(mesh, contour, refinement=1 + seed % 3, max_turn=np.pi))
+    assert on_surface(mesh, points, closed=True)
+    assert crossings(mesh, points, closed=True) == []
+
+
+def test_reversal(realistic):
+    _, mesh, contour = realistic
+    base, backwards = (optimize(mesh, c, refinement=1) for c in (contour, contour[::-1].copy()))
+    assert same_curve(base, backwards, reverse=True)
+    assert backwards.ratio == pytest.approx(base.ratio, rel=1e-10)
+
+
+def test_rigid_motion(realistic, rng):
+    _, mesh, contour = realistic
+    base, moved = (optimize(m, contour, refinement=1) for m in (mesh, meshes.rigidly_moved(mesh, rng)))
+    assert same_curve(base, moved)
+    assert moved.ratio == pytest.approx(base.ratio, rel=1e-8, abs=1e-12 / base.scales.L0)
+
+
+@pytest.mark.parametrize("denominator", ["length", "arcs"])
+def test_scaling(realistic, denominator):
+    _, mesh, contour = realistic
+    size = 37.0
+    big = mesh.moved(mesh.positions * size)
+    base, scaled = (optimize(m, contour, refinement=1, denominator=denominator) for m in (mesh, big))
+    assert same_curve(base, scaled)
+    assert scaled.ratio * (size if denominator == "length" else 1.0) == pytest.approx(base.ratio, rel=1e-8)
+
+
+def test_iterations_never_raise_the_objective(realistic):
+    _, mesh, contour = realistic
+    result = optimize(mesh, contour, width=1, refinement=1, iterations=3)
+    assert result.history[0] == result.initial_objective
+    assert (np.diff(result.history) <= 0).all()
+    assert result.history[-1] == result.objective
+
+
+def test_a_change_of_k_starts_a_new_segment_of_the_history(realistic):
+    _, mesh, contour = realistic
+    result = optimize(mesh, contour, width=1, regular_iterations=2, refinement=1, iterations=2)
+    regular = optimize(mesh, contour, width=1, iterations=2)
+    count = len(regular.history)
+    assert result.history[:count] == pytest.approx(regular.history, rel=1e-12)
+    assert (np.diff(result.history[:count]) <= 0).all()
+    assert (np.diff(result.history[count:]) <= 0).all()
+    assert result.history[-1] == result.objective
+
+
+def test_a_result_can_be_given_again_and_never_loses(realistic):
+    _, mesh, contour = realistic
+    first = optimize(mesh, contour, width=2, refinement=1)
+    surface, options = surface_of(mesh), mrc.Options(flow="harmonic", width=2, refinement=1)
+    for again in (
+        mrc.optimize(surface, first, options=options, scales=first.scales),
+        mrc.optimize(surface, **as_arguments(points_of(first)), options=options, scales=first.scales),
+    ):
+        assert again.initial_ratio == pytest.approx(first.ratio, rel=1e-12)
+        assert again.ratio <= first.ratio + 1e-12 * abs(first.ratio)
+        assert crossings(mesh, points_of(again), closed=True) == []
+    finer = mrc.optimize(
+        surface, first, options=mrc.Options(flow="harmonic", width=2, refinement=2), scales=first.scales
+    )
+    assert finer.objective <= finer.initial_objective
+
+
+def test_positions_and_faces_of_the_segments(realistic):
+    _, mesh, contour = realistic
+    result = optimize(mesh, contour, refinement=2)
+    t = result.edge_parameters[:, None]
+    ends = mesh.positions[result.edge_vertices]
+    assert np.allclose(result.positions, (1 - t) * ends[:, 0] + t * ends[:, 1], atol=1e-14, rtol=0)
+    points = points_of(result)
+    for (p, q), face in zip(zip(points, points[1:] + points[:1], strict=True), result.segment_faces, strict=True):
+        assert {v for point in (p, q) for v in point[:2]} <= set(mesh.faces[face])
+
+
+def hyperboloid(edge, rng):
+    """x^2 + y^2 = 1 + z^2, with its waist at z = 0 between two rows."""
+    z = np.arange(-1.5 + 0.3 * edge, 1.5, 0.7 * edge)
+    columns = round(2 * np.pi / edge)
+    mesh = meshes.tube(np.sqrt(1 + z**2), columns, split_share=1.0, rng=rng)
+    positions = mesh.positions.copy()
+    positions[:, 2] = np.repeat(z, columns)
+    row = int(np.searchsorted(z, 0.35))
+    return mesh.moved(positions), meshes.zigzag_contour(rng, columns, row - 1, row + 1)
+
+
+def test_waist_of_a_hyperboloid():
+    """Within an edge length of the waist, and closer as edges shrink and k grows."""
+    away = []
+    for edge, k in ((0.5, 1), (0.25, 2), (0.125, 3)):
+        mesh, contour = hyperboloid(edge, np.random.default_rng(1))
+        result = optimize(mesh, contour, width=round(0.8 / edge) + 2, regular_iterations=4, iterations=6, refinement=k)
+        away.append(abs(result.positions[:, 2]).max())
+        assert away[-1] <= edge
+    assert away[0] > away[1] > away[2]

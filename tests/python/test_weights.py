@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Weights of the energy (attractors, anchor, crease, feature clamp, ridges), against the independent solver."""
+
+import meshes
+import mrcontour as mrc
+import numpy as np
+import pytest
+from conftest import surface_of
+from contour_energy import points_of
+from random_cases import Case, annulus, chain, check_optimum, check_same_graph, cylinder, random_energy, seeds, torus
+
+FAMILIES = [annulus, cylinder, torus, chain]
+
+
+def attractors(rng, mesh):
+    result = []
+    for _ in range(int(rng.integers(1, 3))):
+        strength = float(rng.choice([-2.0, 0.5, 3.0]))
+        attractor = (int(rng.integers(len(mesh.positions))), float(rng.uniform(0.3, 4.0)), strength)
+        result.append(attractor if rng.random() < 0.5 else (*attractor, float(rng.uniform(0.2, 3.0))))
+    return result
+
+
+def weight(rng, kind):
+    return {
+        "anchor": {"anchor": rng.uniform(0.1, 5.0)},
+        "crease": {"crease": rng.uniform(0.1, 2.0)},
+        "clamp": {"feature_clamp": rng.uniform(0.05, 0.9)},
+        "ridge": {"feature": "ridge"},
+        "attractors": {},
+        "arcs": {"denominator": "arcs"},
+    }[kind]
+
+
+def weighted_case(kinds, k, seed):
+    rng = np.random.default_rng([seed, k, *(ord(kind[0]) for kind in kinds)])
+    family = FAMILIES[seed % 4]
+    mesh, contour = family(rng)
+    options = {"refinement": k, "width": int(rng.integers(1, 4)), "ends": "vertices", **random_energy(rng)}
+    for kind in kinds:
+        options |= weight(rng, kind)
+    wishes = {"attractors": attractors(rng, mesh)} if "attractors" in kinds else {}
+    return Case(mesh, contour, options, closed=family is not chain, dense="arcs" in kinds, **wishes)
+
+
+def check(case):
+    if not case.wishes:
+        check_same_graph(case)
+    check_optimum(case)
+
+
+@pytest.mark.parametrize("kind", ["anchor", "crease", "clamp", "ridge", "attractors", "arcs"])
+@seeds(60)
+def test_one_weight(kind, seed):
+    check(weighted_case([kind], (0, 0, 1)[seed % 3], seed))
+
+
+@seeds(40)
+def test_several_weights(seed):
+    rng = np.random.default_rng(seed)
+    kinds = ["anchor", "crease", "clamp", "ridge", "attractors", "arcs"]
+    check(weighted_case(list(rng.permutation(kinds)[: rng.integers(2, 6)]), (0, 1, 0, 2)[seed % 4], seed))
+
+
+# ---- laws
+
+ALL = {
+    "anchor": 0.5,
+    "crease": 0.4,
+    "feature_clamp": 0.3,
+    "length_bias": 0.3,
+    "length_floor": 0.7,
+    "band_distance": 0.6,
+}
+
+
+def optimize(mesh, contour, pulls, scale=1.0, **options):
+    options = mrc.Options(**{"flow": "harmonic", "width": 5, **ALL, **options})
+    pulls = [(v, radius * scale, strength) for v, radius, strength in pulls]
+    return mrc.optimize(surface_of(mesh), contour, options=options, attractors=pulls)
+
+
+@pytest.mark.parametrize("k", [0, 1])
+@pytest.mark.parametrize("denominator", ["length", "arcs"])
+def test_scaling_rigid_motion_and_reversal(realistic, k, denominator, rng):
+    """The attractors' radius scales along, band_distance is relative and stays."""
+    _, mesh, contour = realistic
+    size, far = 41.0, float(np.ptp(mesh.positions)) / 3
+    pulls = [(int(contour[0]), far, 1.5), (int(contour[len(contour) // 2]), far, -1.0)]
+    options = {"refinement": k, "denominator": denominator}
+    options["length_measure"] = "edges" if denominator == "arcs" else "arc"
+    base = optimize(mesh, contour, pulls, **options)
+    big = optimize(mesh.moved(mesh.positions * size), contour, pulls, size, **options)
+    assert set(points_of(big)) == set(points_of(base))
+    assert big.ratio * (size if denominator == "length" else 1.0) == pytest.approx(base.ratio, rel=1e-8)
+    assert big.objective == pytest.approx(base.objective, rel=1e-8)
+    moved = optimize(meshes.rigidly_moved(mesh, rng), contour, pulls, **options)
+    backwards = optimize(mesh, contour[::-1].copy(), pulls, **options)
+    for other in (moved, backwards):
+        assert set(points_of(other)) == set(points_of(base))
+        assert other.objective == pytest.approx(base.objective, rel=1e-8)
+
+
+def test_measure_is_the_result_after_iterations(realistic):
+    _, mesh, contour = realistic
+    pulls = [(int(contour[0]), 1.0, 1.5)]
+    for more in ({}, {"refinement": 2}, {"refinement": 1, "regular_iterations": 2}):
+        result = optimize(mesh, contour, pulls, iterations=2, width=2, **more)
+        options = mrc.Options(flow="harmonic", width=2, **ALL, refinement=more.get("refinement", 0))
+        again = mrc.measure(surface_of(mesh), result, options=options, scales=result.scales, attractors=pulls)
+        assert again.ratio == pytest.approx(result.ratio, rel=1e-12)
+        assert again.objective == pytest.approx(result.objective, rel=1e-12)
+
+
+def test_attraction_and_repulsion(realistic):
+    """A stronger attractor never takes the contour farther from where it is felt."""
+    _, mesh, contour = realistic
+    surface, options = surface_of(mesh), mrc.Options(flow="harmonic", width=3)
+    space = mrc.search_space(surface, contour, options=options)
+    centre, radius = int(space["left"][-1][0]), float(np.ptp(mesh.positions)) / 4
+
+    def felt(strength):
+        """How much of the pull the result feels: minus its numerator under an attractor of strength 1 alone."""
+        result = mrc.optimize(surface, contour, options=options, attractors=[(centre, radius, strength)])
+        plain, pulled = (
+            mrc.measure(surface, result, options=options, scales=result.scales, attractors=pulls)
+            for pulls in ((), [(centre, radius, 1.0)])
+        )
+        return (plain.numerator - pulled.numerator) / plain.length
+
+    amounts = [felt(strength) for strength in (-5.0, 0.0, 5.0, 50.0)]
+    assert (np.diff(amounts) >= -1e-12 * max(map(abs, amounts))).all()
