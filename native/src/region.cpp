@@ -65,6 +65,17 @@ EdgeForm gather(const Surface& surface, const Tree& tree, std::span<const double
     return form;
 }
 
+/// Of triangles in the order of their distance from two contours, the last that is sure to lie outside what moving one into the other
+/// passes: one at the border of the mesh, which no band encloses; without a border, the last of all.
+int outside(const Surface& surface, const std::vector<int>& triangles) {
+    const auto at_border = [&](int t) {
+        return surface.twin(3 * t) == Surface::border || surface.twin(3 * t + 1) == Surface::border ||
+               surface.twin(3 * t + 2) == Surface::border;
+    };
+    const auto last = std::ranges::find_if(triangles.rbegin(), triangles.rend(), at_border);
+    return last == triangles.rend() ? triangles.back() : *last;
+}
+
 /// The barycentric coordinates of a point on a triangle's border.
 std::array<double, 3> barycentric(const Surface& surface, int triangle, const SurfacePoint& p) {
     std::array<double, 3> share{};
@@ -146,8 +157,8 @@ double enclosed_change(const Surface& surface, std::span<const double> density, 
         }
     }
     const auto everywhere = [](int) { return true; };
-    const int farthest = grow_tree(surface, seeds, everywhere).triangles.back();
-    const EdgeForm form = gather(surface, grow_tree(surface, {farthest}, everywhere), density);
+    const int root = outside(surface, grow_tree(surface, seeds, everywhere).triangles);
+    const EdgeForm form = gather(surface, grow_tree(surface, {root}, everywhere), density);
     return form.along(to) - form.along(from);
 }
 

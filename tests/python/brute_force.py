@@ -139,6 +139,7 @@ class Geometry:
                 self.at_vertex[v].append(i)
             for edge in ((a, b), (b, c), (c, a)):
                 self.at_edge[tuple(sorted(edge))].append((i, edge))
+        self.edge_ends = np.array(list(self.at_edge))
         corners = self.x[np.array(self.triangles)]
         vectors = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         self.bend = {edge: self._bend(pair, vectors) for edge, pair in self.at_edge.items()}
@@ -185,6 +186,8 @@ class Geometry:
         """Eq. 3.4 at a vertex. The disk B is the part of the triangulated surface in the ball that hangs together with
         the vertex."""
         centre = self.x[v]
+        start, end = line_in_ball(*(self.x[self.edge_ends] - centre).transpose(1, 0, 2), radius)
+        shares = dict(zip(self.at_edge, (end - start).tolist(), strict=True))
         seen, stack, met = set(self.at_vertex[v]), list(self.at_vertex[v]), {}
         while stack:
             a, b, c = self.triangles[stack.pop()]
@@ -192,10 +195,8 @@ class Geometry:
                 edge = tuple(sorted(edge))
                 if edge in met:
                     continue
-                p, q = self.x[edge[0]] - centre, self.x[edge[1]] - centre
-                start, end = line_in_ball(p, q, radius)
-                met[edge] = float(end - start)
-                if end > start:
+                met[edge] = shares[edge]
+                if met[edge] > 0:
                     fresh = [i for i, _ in self.at_edge[edge] if i not in seen]
                     seen.update(fresh)
                     stack += fresh

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The energy of contours through vertices and Steiner points, closed or open, with all its terms: eq. 3.1 to 3.3 as
-DESIGN settles them, computed plainly from the mesh. Shares no line with the module.
+"""The energy of contours through vertices and Steiner points, closed or open, with all its terms: eq. 3.1 to 3.3
+with what the options add, computed plainly from the mesh. Shares no line with the module.
 
 A point is (a, b, n) with a < b, n / UNITS of the way from a to b; a vertex is (v, v, 0).
 """

@@ -13,11 +13,15 @@ from conftest import surface_of
 from contour_energy import EXTRA, PointEnergy, edge_of, point_on, points_of, vertex, with_steiner_points
 from contour_graph import ContourGraph
 
+UNDER_SANITIZERS = 6  # cases of each kind, since these take five times as long there
+
 
 def seeds(count, in_full=200):
     """Parametrizes by seed: `count` cases always, the rest of them in a full run only."""
+    few = [*range(min(count, UNDER_SANITIZERS))]
+    more = [pytest.param(seed, marks=pytest.mark.slow) for seed in range(UNDER_SANITIZERS, count)]
     rest = [pytest.param(seed, marks=pytest.mark.long) for seed in range(count, in_full)]
-    return pytest.mark.parametrize("seed", [*range(count), *rest])
+    return pytest.mark.parametrize("seed", [*few, *more, *rest])
 
 
 def annulus(rng):

@@ -30,7 +30,7 @@ def test_regular_optimum(ends, seed):
 
 
 @pytest.mark.parametrize("ends", ["edges", "vertices", "border"])
-@seeds(36)
+@seeds(24)
 def test_refined_optimum(ends, seed):
     case = open_case(ends, seed, k=1 + seed % 2)
     if ends == "vertices":

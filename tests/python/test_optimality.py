@@ -70,7 +70,11 @@ FAMILIES = {
     long_tube: 30,
     dead_end_arm: 12,
 }
-CASES = [(family, seed) for family, count in FAMILIES.items() for seed in range(count)]
+CASES = [
+    pytest.param(family, seed, id=f"{family.__name__}-{seed}", marks=[pytest.mark.slow] if seed >= 6 else [])
+    for family, count in FAMILIES.items()
+    for seed in range(count)
+]
 
 
 def random_options(rng, family, seed):
@@ -111,7 +115,7 @@ def close(one, two, scale=0.0):
     return abs(one - two) <= 1e-10 * max(abs(one), abs(two), scale)
 
 
-@pytest.mark.parametrize(("family", "seed"), CASES, ids=[f"{family.__name__}-{seed}" for family, seed in CASES])
+@pytest.mark.parametrize(("family", "seed"), CASES)
 def test_result_equals_enumeration(family, seed):
     mesh, contour, options, surface, space, brute = affordable_case(family, seed)
     check_search_space(mesh, contour, space, options)

@@ -25,7 +25,7 @@ struct ChordEnd {
     double crease = 0.0;                                ///< what the chord's edge costs for each unit of length
 };
 
-/// The weights of eq. 3.1 and 3.2 as DESIGN of the energy settles them; pure functions of the surface and the scales.
+/// The weights of eq. 3.1 and 3.2 with the weights that options add; pure functions of the surface and the scales.
 class Energy {
   public:
     /// All arguments must outlive the energy.

@@ -41,7 +41,7 @@ EdgeForm region_form(const Surface& surface, const Patch& patch, const Band& ban
                      std::span<const double> density, double reached);
 
 /// The change of the integral of a density that a contour encloses on its left, from one closed contour to another that can be moved
-/// into it, where the face farthest from both lies outside what it passes.
+/// into it. What it passes holds no border of the mesh; on a mesh without one it does not hold the face farthest from both.
 double enclosed_change(const Surface& surface, std::span<const double> density, const Contour& from, const Contour& to);
 
 }  // namespace mrc

@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The region term (6.1.2): line integrals against sums over the faces between two contours, by discrete Stokes."""
+
+import meshes
+import mrcontour as mrc
+import numpy as np
+import pytest
+from conftest import surface_of
+
+ROWS, COLUMNS = 9, 7
+
+
+def random_tube(seed):
+    rng = np.random.default_rng(seed)
+    mesh = meshes.tube(
+        rng.uniform(0.7, 1.3, ROWS),
+        COLUMNS,
+        step=0.6,
+        split_share=float(rng.choice([0.0, 0.5, 1.0])),
+        rng=rng,
+        noise=0.05,
+    )
+    return rng, mesh
+
+
+def areas(mesh):
+    """By the vector area of each polygon."""
+    result = []
+    for face in mesh.faces:
+        points = mesh.positions[np.asarray(face)]
+        result.append(
+            np.linalg.norm(np.cross(points - points[0], np.roll(points, -1, axis=0) - points[0]).sum(axis=0)) / 2
+        )
+    return np.array(result)
+
+
+def enclosed_change(surface, density, given, contour, options, **to):
+    """What the module's measure says that the integral on the left has changed by."""
+    scales = mrc.optimize(surface, given, options=mrc.Options(iterations=0)).scales
+    with_term = mrc.measure(surface, contour, options=options, scales=scales, region_density=density, **to)
+    without = mrc.measure(surface, contour, options=options, scales=scales, **to)
+    return (with_term.numerator - without.numerator) * scales.L0 / (scales.K * options.region_weight)
+
+
+def faces_between(mesh, low, high):
+    """The faces that a walk from above the lower contour reaches without crossing either."""
+    fence = {frozenset(edge) for c in (low, high) for edge in zip(c, np.roll(c, -1))}
+    beside = {}
+    for f, face in enumerate(mesh.faces):
+        for a, b in zip(face, np.roll(face, -1)):
+            beside.setdefault(frozenset((int(a), int(b))), []).append(f)
+    neighbours = [[] for _ in mesh.faces]
+    for edge, faces in beside.items():
+        if len(faces) == 2 and edge not in fence:
+            neighbours[faces[0]].append(faces[1])
+            neighbours[faces[1]].append(faces[0])
+    below = {f for f, face in enumerate(mesh.faces) if min(face) < COLUMNS}  # at the lower border
+    above = {f for f, face in enumerate(mesh.faces) if max(face) >= COLUMNS * (ROWS - 1)}
+    outside, stack = below | above, [*(below | above)]
+    while stack:
+        for other in neighbours[stack.pop()]:
+            if other not in outside:
+                outside.add(other)
+                stack.append(other)
+    return [f for f in range(len(mesh.faces)) if f not in outside]
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_line_integral_is_the_enclosed_sum(seed):
+    rng, mesh = random_tube(seed)
+    surface = surface_of(mesh)
+    density = rng.uniform(-1.0, 2.0, len(mesh.faces))
+    low = meshes.zigzag_contour(rng, COLUMNS, 1, 3)
+    high = meshes.zigzag_contour(rng, COLUMNS, 5, 7)
+    expected = (density * areas(mesh))[faces_between(mesh, low, high)].sum()
+    options = mrc.Options(region_weight=2.5)
+    change = enclosed_change(surface, density, low, high, options)
+    assert abs(abs(change) - abs(expected)) <= 1e-10 * (1 + abs(expected))
+    # The other way round the same faces leave; from the right they count the other way.
+    assert change + enclosed_change(surface, density, high, low, options) == pytest.approx(0.0, abs=1e-10)
+    right = mrc.Options(region_weight=2.5, region_side="right")
+    assert change + enclosed_change(surface, density, low, high, right) == pytest.approx(0.0, abs=1e-10)
+
+
+@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("k", [0, 1, 2])
+def test_the_result_is_what_measure_says(seed, k):
+    """The term of the last iteration's band is the change since the first given contour, whatever the band."""
+    rng, mesh = random_tube(100 + seed)
+    surface = surface_of(mesh)
+    density = rng.uniform(0.0, 2.0, len(mesh.faces))
+    options = mrc.Options(refinement=k, iterations=3, width=2, region_weight=float(rng.uniform(-4, 4)))
+    given = meshes.zigzag_contour(rng, COLUMNS, 3, 5)
+    result = mrc.optimize(surface, given, options=options, region_density=density)
+    measured = mrc.measure(surface, result, options=options, scales=result.scales, region_density=density)
+    assert measured.ratio == pytest.approx(result.ratio, rel=1e-10)
+    assert np.all(np.diff(result.history) <= 1e-12 * np.abs(result.history[:-1]))
+
+
+@pytest.mark.parametrize("k", [0, 1])
+@pytest.mark.parametrize("seed", range(20))
+def test_reversing_the_contour_and_the_side_together_changes_nothing(seed, k):
+    rng, mesh = random_tube(200 + seed)
+    surface = surface_of(mesh)
+    density = rng.uniform(0.0, 2.0, len(mesh.faces))
+    given = meshes.zigzag_contour(rng, COLUMNS, 3, 5)
+    left, right = (mrc.Options(refinement=k, region_weight=3.0, region_side=side) for side in ("left", "right"))
+    one = mrc.optimize(surface, given, options=left, region_density=density)
+    two = mrc.optimize(surface, given[::-1], options=right, region_density=density)
+    assert one.ratio == pytest.approx(two.ratio, rel=1e-10)
+
+
+def test_what_is_enclosed_draws_and_repels():
+    """On a plain cylinder nothing but the region term moves a ring: towards what it gains, as far as the band goes."""
+    mesh = meshes.tube([1.0] * ROWS, 8)
+    surface = surface_of(mesh)
+    given = 4 * 8 + np.arange(8)
+    density = np.ones(len(mesh.faces))
+    rows = {}
+    for weight in (-5.0, 0.0, 5.0):
+        options = mrc.Options(region_weight=weight, width=2)
+        result = mrc.optimize(surface, given, options=options, region_density=density)
+        rows[weight] = set((result.vertices // 8).tolist())
+    assert rows[0.0] == {4}
+    assert sorted([rows[-5.0], rows[5.0]], key=min) == [{2}, {6}]
+
+
+def test_bad_densities():
+    mesh = meshes.tube([1.0, 0.8, 1.0], 6)
+    surface, ring = surface_of(mesh), 6 + np.arange(6)
+    for density in (np.ones(3), np.full(len(mesh.faces), np.nan), np.ones((len(mesh.faces), 2))):
+        with pytest.raises(ValueError, match="densit"):
+            mrc.optimize(surface, ring, region_density=density)
+    with pytest.raises(ValueError, match="closed"):
+        mrc.optimize(surface, ring[:4], closed=False, region_density=np.ones(len(mesh.faces)))
