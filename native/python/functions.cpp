@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace mrc_python {
 namespace {
@@ -52,12 +53,16 @@ std::vector<std::array<int, 2>> edge_pairs(const py::object& edges, const char* 
 std::vector<mrc::Attractor> to_attractors(const py::iterable& attractors) {
     std::vector<mrc::Attractor> result;
     for (const py::handle item : attractors) {
-        const auto fields = py::reinterpret_borrow<py::object>(item).cast<py::sequence>();
-        if (fields.size() != 3 && fields.size() != 4) {
+        const Doubles fields = doubles(py::reinterpret_borrow<py::object>(item), "an attractor");
+        if (fields.ndim() != 1 || (fields.size() != 3 && fields.size() != 4)) {
             throw py::value_error("an attractor is (vertex, radius, strength) or (vertex, radius, strength, sigma)");
         }
-        mrc::Attractor a{fields[0].cast<int>(), fields[1].cast<double>(), fields[2].cast<double>(), std::nullopt};
-        if (fields.size() == 4) a.sigma = fields[3].cast<double>();
+        const double vertex = fields.at(0);
+        if (!(vertex == std::floor(vertex) && std::abs(vertex) < 2147483648.0)) {
+            throw py::value_error("an attractor's vertex must be a whole number");
+        }
+        mrc::Attractor a{static_cast<int>(vertex), fields.at(1), fields.at(2), std::nullopt};
+        if (fields.size() == 4) a.sigma = fields.at(3);
         result.push_back(a);
     }
     return result;
@@ -94,7 +99,7 @@ PyResult optimize(const Surface& surface, const py::object& vertices, bool close
         report = [&progress](double share) {
             const py::gil_scoped_acquire acquire;
             const py::object answer = progress(share);
-            return !answer.is(py::bool_(false));
+            return answer.is_none() || PyObject_IsTrue(answer.ptr()) != 0;
         };
     }
     const py::gil_scoped_release release;

@@ -87,7 +87,7 @@ auto field(Value mrc::Result::*member) {
 
 Integers contour_vertices(const mrc::Contour& contour) {
     std::vector<int> vertices;
-    for (const auto& p : contour.points) vertices.push_back(p.a);
+    for (const auto& p : contour.points) vertices.push_back(p.is_vertex() ? p.a : -1);
     return to_array(vertices);
 }
 
@@ -104,7 +104,8 @@ void bind_results(py::module_& module) {
     bind_measure(module);
     py::class_<PyResult>(module, "Result", "What optimize found. Ratios are in one over the mesh's unit of length.")
         .def_property_readonly(
-            "status", [](const PyResult& r) { return status_name(r.result.status); }, "'improved', 'unchanged' or 'cancelled'.")
+            "status", [](const PyResult& r) { return status_name(r.result.status); },
+            "'improved', 'unchanged', 'constrained' (the given contour broke a requirement) or 'cancelled'.")
         .def_property_readonly("reason", field(&mrc::Result::reason), "Why the given contour is returned, in words.")
         .def_property_readonly("ratio", field(&mrc::Result::ratio))
         .def_property_readonly("initial_ratio", field(&mrc::Result::initial_ratio))
@@ -113,7 +114,7 @@ void bind_results(py::module_& module) {
         .def_property_readonly("salience", field(&mrc::Result::salience),
                                "Minus the ratio over K of the best found, even where the given contour is returned.")
         .def_property_readonly("lower_bound", field(&mrc::Result::lower_bound),
-                               "No contour of the last iteration's band has a lower objective.")
+                               "No contour of the last iteration's graph has a lower objective.")
         .def_property_readonly("gap", field(&mrc::Result::gap), "Objective of the best found minus lower_bound.")
         .def_property_readonly("history", field(&mrc::Result::history), "Objective before the first and after each iteration.")
         .def_property_readonly("scales", field(&mrc::Result::scales))
@@ -121,7 +122,7 @@ void bind_results(py::module_& module) {
         .def_property_readonly("closed", [](const PyResult& r) { return r.result.contour.closed; })
         .def_property_readonly(
             "vertices", [](const PyResult& r) { return contour_vertices(r.result.contour); },
-            "(N,) int32: vertex ids in order, in the given direction.")
+            "(N,) int32: vertex ids in order, in the given direction; -1 for the points of a refined contour between vertices.")
         .def_property_readonly(
             "edge_vertices", [](const PyResult& r) { return edge_vertices(r.result.contour); },
             "(N, 2) int32: point i lies at (1 - t) a + t b on the edge ab; a vertex is (v, v) with t = 0.")

@@ -10,9 +10,12 @@ namespace mrc_python {
 namespace {
 
 /// Face ids, or a mask over all faces.
-Integers face_ids(const py::object& faces) {
+Integers face_ids(const py::object& faces, py::ssize_t count) {
     const py::array array = py::array::ensure(faces);
-    if (array && array.dtype().kind() == 'b') {
+    if (array && array.dtype().kind() == 'b' && array.size() > 0) {
+        if (array.ndim() != 1 || array.size() != count) {
+            throw py::value_error("hidden_faces as a mask must have one entry for each of the " + std::to_string(count) + " faces");
+        }
         const py::object nonzero = py::module_::import("numpy").attr("flatnonzero")(array);
         return integers(nonzero, "hidden_faces");
     }
@@ -39,7 +42,8 @@ std::unique_ptr<mrc::Surface> make_surface(const py::object& positions, const py
         require_shape(triples, 3, "triangles");
     }
     if (!hidden_faces.is_none()) {
-        hidden = face_ids(hidden_faces);
+        const py::ssize_t faces = face_offsets.is_none() ? corners.size() / 3 : offsets.size() - 1;
+        hidden = face_ids(hidden_faces, faces);
         require_shape(hidden, 0, "hidden_faces");
     }
     const mrc::SurfaceArrays arrays{view(points), view(offsets), view(corners), view(triples), view(hidden)};

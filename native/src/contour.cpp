@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <mrc/contour.h>
 
+#include "guide.h"
 #include "levels.h"
 
 #include <algorithm>
@@ -22,8 +23,10 @@ std::vector<int> faces_at(const Surface& surface, const SurfacePoint& point) {
 }
 
 int face_of_segment(const Surface& surface, const SurfacePoint& p, const SurfacePoint& q) {
-    if (p.is_vertex() && q.is_vertex()) {
-        if (const int left = surface.find_halfedge(p.a, q.a); left >= 0) return surface.halfedge_face(left);
+    if (const SharedEdge edge(p, q); edge.a >= 0) {
+        const bool forward = edge.parameter(p) < edge.parameter(q);
+        const int left = forward ? surface.find_halfedge(edge.a, edge.b) : surface.find_halfedge(edge.b, edge.a);
+        if (left >= 0) return surface.halfedge_face(left);
     }
     const std::vector<int> candidates = faces_at(surface, q);
     for (const int face : faces_at(surface, p)) {

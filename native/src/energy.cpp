@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <mrc/energy.h>
 
+#include "guide.h"
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
@@ -144,25 +146,6 @@ bool Energy::turns_too_much(const ChordEnd& e1, const ChordEnd& e2) const {
 }
 
 namespace {
-
-/// The edge that holds both points, from a to b; a < 0: there is none.
-struct SharedEdge {
-    int a = -1, b = -1;
-
-    SharedEdge(const SurfacePoint& p, const SurfacePoint& q) {
-        const int first = p.a, second = p.is_vertex() ? (q.is_vertex() || q.a != first ? q.a : q.b) : p.b;
-        const auto holds = [&](const SurfacePoint& x) {
-            return (x.a == first || x.a == second) && (x.b == first || x.b == second);
-        };
-        if (first == second || !holds(p) || !holds(q)) return;
-        a = first;
-        b = second;
-    }
-    double parameter(const SurfacePoint& p) const {
-        if (p.is_vertex()) return p.a == a ? 0.0 : 1.0;
-        return p.a == a ? p.t : 1.0 - p.t;
-    }
-};
 
 /// The crease cost of the segment from p to q: that of the mesh edge it lies on, if any.
 double segment_crease(const Surface& surface, const Energy& energy, const SurfacePoint& p, const SurfacePoint& q) {

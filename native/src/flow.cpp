@@ -139,7 +139,7 @@ std::vector<int> border_piece(const Patch& patch, const Band& band, int vertex) 
     return piece;
 }
 
-Flow make_flow(const Surface&, const Patch& patch, const Band& band, const Options& options) {
+Flow make_flow(const Patch& patch, const Band& band, const Options& options) {
     if (options.flow == FlowKind::harmonic) return harmonic_flow(patch, band, options);
     return strip_flow(patch, band, options.flow, fixed_values(patch, band, options));
 }

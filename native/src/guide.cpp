@@ -9,7 +9,7 @@ namespace {
 
 enum class Snap { nearest, left, right };
 
-/// Any half-edge with these ends, real or diagonal, that borders the triangle on the side of the next or last point.
+/// True where the point lies on the triangle's border.
 bool on_triangle(const Surface& surface, int triangle, const SurfacePoint& p) {
     const auto& v = surface.triangle(triangle);
     return std::ranges::find(v, p.a) != v.end() && std::ranges::find(v, p.b) != v.end();
@@ -30,8 +30,11 @@ int snapped(const Surface& surface, const Contour& contour, std::size_t i, Snap 
     if (p.is_vertex()) return p.a;
     if (snap == Snap::nearest) return p.t <= 0.5 ? p.a : p.b;
     const std::size_t count = contour.points.size();
-    const int triangle = triangle_of_segment(surface, contour.points[(i + count - 1) % count], p);
-    return first_end_is_left(surface, triangle, p) == (snap == Snap::left) ? p.a : p.b;
+    // At the beginning of an open curve there is only the triangle that it goes on into, where left and right change places.
+    const bool begins = !contour.closed && i == 0;
+    const int triangle = triangle_of_segment(surface, contour.points[begins ? 1 : (i + count - 1) % count], p);
+    const bool left = first_end_is_left(surface, triangle, p) != begins;
+    return left == (snap == Snap::left) ? p.a : p.b;
 }
 
 /// The shorter way round the polygon from a to b, both of which it holds; without a, with b.

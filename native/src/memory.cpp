@@ -8,7 +8,9 @@
 #endif
 
 #include <cmath>
+#include <fstream>
 #include <sstream>
+#include <string>
 
 namespace mrc {
 namespace {
@@ -18,10 +20,14 @@ double free_bytes() {
     MEMORYSTATUSEX status{};
     status.dwLength = sizeof(status);
     return GlobalMemoryStatusEx(&status) ? static_cast<double>(status.ullAvailPhys) : HUGE_VAL;
-#elif defined(_SC_AVPHYS_PAGES)
-    return static_cast<double>(sysconf(_SC_AVPHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
 #else
-    return HUGE_VAL;
+    // What Linux can hand out, page cache included; elsewhere all that is built in.
+    std::ifstream file("/proc/meminfo");
+    for (std::string name; file >> name; file.ignore(1000, '\n')) {
+        double kilobytes = 0.0;
+        if (name == "MemAvailable:" && file >> kilobytes) return 1024.0 * kilobytes;
+    }
+    return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
 #endif
 }
 

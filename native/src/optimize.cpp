@@ -16,13 +16,31 @@
 namespace mrc {
 namespace {
 
+/// @throws InvalidInput where the scales are those of another surface, or no numbers.
+void check_scales(const Surface& surface, const Scales& scales) {
+    for (const SurfacePoint& p : scales.given.points) {
+        if (std::max(p.a, p.b) >= surface.vertex_count()) {
+            throw InvalidInput("the scales belong to another surface: their contour has vertex " +
+                               std::to_string(std::max(p.a, p.b)) + ", and this surface has " +
+                               std::to_string(surface.vertex_count()) + " vertices");
+        }
+    }
+    for (const double value : {scales.h, scales.K, scales.kappa_0, scales.L0}) {
+        if (!(std::isfinite(value) && value > 0.0)) {
+            throw InvalidInput("lengths and curvatures near the contour leave the range of numbers: scale the mesh");
+        }
+    }
+}
+
 /// Scales, curvature and energy, made once for a call.
 struct Setting {
     Setting(const Surface& surface, const Contour& contour, const Options& options, const std::vector<Attractor>& attractors,
             const Scales* given)
         : field(surface, given ? given->h : mean_edge_length(surface, contour), options),
           scales(given ? *given : contour_scales(surface, field, mean_edge_length(surface, contour), contour, options)),
-          energy(surface, field, scales, options, attractors) {}
+          energy(surface, field, scales, options, attractors) {
+        check_scales(surface, scales);
+    }
     Setting(const Setting&) = delete;
     Setting& operator=(const Setting&) = delete;
 
@@ -103,7 +121,14 @@ class Optimization {
         result_.salience = first.salience;
         if (options_.regular_iterations > 0 && !run_phase(options_.regular_iterations, 0)) return cancelled();
         if (!run_phase(options_.iterations, options_.refinement)) return cancelled();
-        if (featureless() && result_.statistics.iterations > 0) keep_given();
+        if (!feasible_)
+            throw Infeasible("the given contour lacks required elements, and " +
+                             (result_.reason.empty() ? "no iteration was asked for" : result_.reason));
+        if (searched_ && featureless()) explain_featureless();
+        // What was won along mesh edges may be lost with the Steiner points of a last phase that found nothing.
+        const bool lost = result_.status == Status::improved && below(result_.initial_objective, result_.objective);
+        if (result_.status == Status::improved && (lost || (searched_ && featureless()))) keep_given();
+        if (lost) result_.reason = "no better contour was found across faces";
         if (!report(1.0)) return cancelled();
         return std::move(result_);
     }
@@ -120,12 +145,13 @@ class Optimization {
     std::unique_ptr<Setting> setting_;
     Measure current_;        // of the contour reached so far
     int steiner_ = 0;        // k of the iterations under way
+    bool searched_ = false;  // some iteration found a contour
     double enclosed_ = 0.0;  // the change of the region term's integral so far
 
     /// True where objective a is below b by more than rounding.
     bool below(double a, double b) const {
         const double unit = options_.length_bias == 0.0 ? setting_->energy.unit() : 1.0;
-        return a < b - 1e-12 * std::max({unit, std::abs(a), std::abs(b)});
+        return std::isinf(b) ? a < b : a < b - 1e-12 * std::max({unit, std::abs(a), std::abs(b)});
     }
 
     bool report(double share) const { return !progress_ || progress_(share); }
@@ -149,6 +175,7 @@ class Optimization {
         current_ = mrc::measure(surface_, setting_->energy, result_.contour, steiner, enclosed_);
         result_.ratio = current_.ratio;
         result_.objective = result_.lower_bound = current_.objective;
+        result_.gap = 0.0;
         if (feasible_) result_.history.push_back(current_.objective);
         for (int i = 0; i < iterations; ++i) {
             if (!report(share_done())) return false;
@@ -171,7 +198,7 @@ class Optimization {
         }
         const Patch patch = stopwatch_.time("patch", [&] { return make_patch(surface_, current, options_.width); });
         const Band band = stopwatch_.time("band", [&] { return grow_band(surface_, patch, options_, wishes_); });
-        const Flow flow = stopwatch_.time("flow", [&] { return make_flow(surface_, patch, band, options_); });
+        const Flow flow = stopwatch_.time("flow", [&] { return make_flow(patch, band, options_); });
         const std::optional<EdgeForm> region = make_region_form(patch, band, flow);
         const ContourGraph graph = stopwatch_.time("graph", [&] {
             return make_graph(surface_, patch, band, flow, setting_->energy, options_, wishes_, steiner_,
@@ -182,6 +209,7 @@ class Optimization {
         if (!feasible_ && !best.found) throw Infeasible(where_it_stops(graph, wishes_));
         const double before = feasible_ ? result_.objective : std::numeric_limits<double>::infinity();
         result_.lower_bound = best.found ? std::min(best.lower_bound, before) : before;
+        searched_ |= best.found;
         if (best.found) accept(trace_contour(graph, patch, flow, best.nodes), region);
         result_.gap = std::max(0.0, result_.objective - result_.lower_bound);
         result_.history.push_back(result_.objective);
@@ -219,13 +247,15 @@ class Optimization {
     /// Nothing concave was found to go to (min_salience).
     bool featureless() const { return options_.min_salience && result_.salience < *options_.min_salience; }
 
-    /// Puts the given contour back; the certificate stays that of the best found.
-    void keep_given() {
+    void explain_featureless() {
         std::ostringstream reason;
         reason << "there is nothing concave to find here: the best contour's salience is " << result_.salience << ", below "
                << *options_.min_salience;
         result_.reason = reason.str();
-        if (result_.status == Status::constrained) return;  // the given contour breaks a requirement
+    }
+
+    /// Puts the given contour back; the certificate stays that of the best found.
+    void keep_given() {
         result_.contour = given_;
         result_.status = Status::unchanged;
         result_.ratio = result_.initial_ratio;
@@ -255,11 +285,17 @@ class Optimization {
     }
 };
 
-/// The contour, once it and the size of what is asked are checked; a band has at least as many triangles as its contour segments.
-Contour checked_input(const Surface& surface, const Contour& contour, const Options& options) {
+/// The contour, once all input is checked; a band has at least as many triangles as its contour has segments.
+Contour checked_input(const Surface& surface, const Contour& contour, const Options& options, const Wishes& wishes,
+                      const Scales* scales) {
     options.check();
+    wishes.check(surface);
     Contour checked = checked_contour(surface, contour);
     check_graph_size(static_cast<double>(checked.points.size()), options.refinement);
+    if (!checked.closed && !wishes.region_density.empty()) {
+        throw InvalidInput("the region term needs a closed contour: an open one encloses nothing");
+    }
+    if (scales) check_scales(surface, *scales);
     return checked;
 }
 
@@ -279,9 +315,7 @@ double whole_mean_edge_length(const Surface& surface) {
 
 Result optimize(const Surface& surface, const Contour& contour, const Options& options, const Wishes& wishes, const Scales* scales,
                 const Progress& progress) {
-    options.check();
-    wishes.check(surface);
-    const Contour checked = checked_input(surface, contour, options);
+    const Contour checked = checked_input(surface, contour, options, wishes, scales);
     check_barriers(surface, checked, wishes);
     if (!checked.closed && !wishes.region_density.empty())
         throw InvalidInput("the region term needs a closed contour: an open one encloses nothing");
@@ -290,9 +324,7 @@ Result optimize(const Surface& surface, const Contour& contour, const Options& o
 
 Measure measure(const Surface& surface, const Contour& contour, const Options& options, const Wishes& wishes,
                 const Scales* scales) {
-    options.check();
-    wishes.check(surface);
-    const Contour checked = checked_input(surface, contour, options);
+    const Contour checked = checked_input(surface, contour, options, wishes, scales);
     const Setting setting(surface, checked, options, wishes.attractors, scales);
     const bool region = scales && !wishes.region_density.empty() && options.region_weight != 0.0;
     return measure(surface, setting.energy, checked, options.refinement,
@@ -310,15 +342,13 @@ std::vector<VertexCurvature> curvature(const Surface& surface, const Options& op
 
 SearchSpace search_space(const Surface& surface, const Contour& contour, const Options& options, const Wishes& wishes,
                          const Scales* scales) {
-    options.check();
-    wishes.check(surface);
-    const Contour checked = checked_input(surface, contour, options);
+    const Contour checked = checked_input(surface, contour, options, wishes, scales);
     const Setting setting(surface, checked, options, wishes.attractors, scales);
     SearchSpace space;
     if (!has_neighbour_along_edges(surface, checked)) throw InvalidInput(no_neighbour);
     space.patch = make_patch(surface, checked, options.width);
     space.band = grow_band(surface, space.patch, options, wishes);
-    space.flow = make_flow(surface, space.patch, space.band, options);
+    space.flow = make_flow(space.patch, space.band, options);
     space.graph = make_graph(surface, space.patch, space.band, space.flow, setting.energy, options, wishes, options.refinement);
     return space;
 }

@@ -6,6 +6,7 @@
 #include <mrc/distances.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 #include <tuple>
@@ -68,8 +69,8 @@ void check_point(const Surface& surface, const SurfacePoint& p) {
 }
 
 /// The order of points on edges, whichever way these are written.
-std::tuple<int, int, double> place_key(const SurfacePoint& p) {
-    return p.a <= p.b ? std::tuple(p.a, p.b, p.t) : std::tuple(p.b, p.a, 1.0 - p.t);
+std::tuple<int, int, long long> place_key(const SurfacePoint& p) {
+    return p.a <= p.b ? std::tuple(p.a, p.b, std::llround(p.t * 1e12)) : std::tuple(p.b, p.a, std::llround((1.0 - p.t) * 1e12));
 }
 
 void check_distinct(const Contour& contour) {
@@ -78,7 +79,7 @@ void check_distinct(const Contour& contour) {
         throw InvalidInput("a contour of " + std::to_string(contour.points.size()) + " vertices: a " +
                            (contour.closed ? "closed" : "open") + " contour needs at least " + std::to_string(least));
     }
-    std::set<std::tuple<int, int, double>> seen;
+    std::set<std::tuple<int, int, long long>> seen;
     for (const SurfacePoint& p : contour.points) {
         if (!seen.insert(place_key(p)).second) {
             throw InvalidInput("the contour passes " + point_name(p) +
@@ -145,6 +146,17 @@ void check_crossings(const Contour& contour, std::vector<Crossing>& crossings) {
     }
 }
 
+bool on_edge(const Surface& surface, int halfedge, const SurfacePoint& p) {
+    const int a = surface.from(halfedge), b = surface.to(halfedge);
+    return (p.a == a || p.a == b) && (p.b == a || p.b == b);
+}
+
+void add_crossing(const Surface& surface, int triangle, const SurfacePoint& p, const SurfacePoint& q, std::size_t index,
+                  std::vector<Crossing>& crossings) {
+    const double from = border_place(surface, triangle, p), to = border_place(surface, triangle, q);
+    crossings.push_back({triangle, std::min(from, to), std::max(from, to), index});
+}
+
 void check_edge(const Surface& surface, int a, int b) {
     if (!surface.real_edge(a, b)) {
         throw InvalidInput("the contour's vertices " + std::to_string(a) + " and " + std::to_string(b) +
@@ -156,19 +168,26 @@ void check_edge(const Surface& surface, int a, int b) {
 
 void check_segment(const Surface& surface, const SurfacePoint& p, const SurfacePoint& q, std::size_t index,
                    std::vector<Crossing>& crossings) {
-    if (p.is_vertex() && q.is_vertex()) return check_edge(surface, p.a, q.a);
+    if (p.is_vertex() && q.is_vertex()) check_edge(surface, p.a, q.a);
     const int triangle = triangle_of_segment(surface, p, q);
     if (triangle < 0) {
         throw InvalidInput("the contour leaves the surface between " + point_name(p) + " and " + point_name(q) +
                            ": consecutive points must lie on one triangle");
     }
-    const std::string why = obstacle(surface, 3 * triangle);
+    const SharedEdge edge(p, q);
+    const bool along = edge.a >= 0 && surface.real_edge(edge.a, edge.b);
+    const std::string why = along ? obstacle(surface, edge.a, edge.b) : obstacle(surface, 3 * triangle);
     if (!why.empty()) {
         throw InvalidInput("the contour between " + point_name(p) + " and " + point_name(q) + " lies " + why +
                            ": move the contour off it");
     }
-    const double from = border_place(surface, triangle, p), to = border_place(surface, triangle, q);
-    crossings.push_back({triangle, std::min(from, to), std::max(from, to), index});
+    // A segment along an edge lies on the border of both its triangles.
+    const int start = 3 * triangle;
+    add_crossing(surface, triangle, p, q, index, crossings);
+    for (int h = start; h < start + 3; ++h) {
+        const int twin = surface.twin(h);
+        if (twin >= 0 && on_edge(surface, h, p) && on_edge(surface, h, q)) add_crossing(surface, twin / 3, p, q, index, crossings);
+    }
 }
 
 /// Collects polygons ring by ring and numbers their vertices.
@@ -287,6 +306,9 @@ bool has_neighbour_along_edges(const Surface& surface, const Contour& contour) {
 }
 
 Patch make_patch(const Surface& surface, const Contour& contour, std::optional<int> rings) {
+    if (!has_neighbour_along_edges(surface, contour)) {
+        throw InvalidInput("no simple contour along mesh edges lies beside the given one, so that no band can grow from it");
+    }
     PatchBuilder builder(surface, contour);
     builder.add_rings(rings);
     return builder.finish();

@@ -158,7 +158,11 @@ double enclosed_change(const Surface& surface, std::span<const double> density, 
     }
     const auto everywhere = [](int) { return true; };
     const int root = outside(surface, grow_tree(surface, seeds, everywhere).triangles);
-    const EdgeForm form = gather(surface, grow_tree(surface, {root}, everywhere), density);
+    Tree tree = grow_tree(surface, {root}, everywhere);
+    for (int h = 3 * root; h < 3 * root + 3; ++h) {
+        if (surface.twin(h) == Surface::border) tree.leaving[0] = h;  // through the border, so that the root counts too
+    }
+    const EdgeForm form = gather(surface, tree, density);
     return form.along(to) - form.along(from);
 }
 

@@ -183,8 +183,8 @@ Options gates(std::optional<int> width) {
     return options;
 }
 
-EdgeFlow edge_flow(const Surface& surface, const Case& c, const Options& options) {
-    const Flow flow = make_flow(surface, c.patch, c.band, options);
+EdgeFlow edge_flow(const Case& c, const Options& options) {
+    const Flow flow = make_flow(c.patch, c.band, options);
     EdgeFlow result;
     for (int h = 0; h < static_cast<int>(c.patch.mesh.n_halfedges()); ++h) {
         if (c.band.edge[h / 2]) result[{c.patch.vertex[c.from(h)], c.patch.vertex[c.to(h)]}] = flow.increment(c.patch.mesh, h);
@@ -326,11 +326,11 @@ void expect_arc_length(const Case& c, const Flow& flow, const Curve& curve) {
     }
 }
 
-void expect_all_laws(const Surface& surface, const Case& c, Options options) {
+void expect_all_laws(const Case& c, Options options) {
     expect_strip_laws(c);
     for (const FlowKind kind : {FlowKind::gates, FlowKind::arc_length}) {
         options.flow = kind;
-        const Flow flow = make_flow(surface, c.patch, c.band, options);
+        const Flow flow = make_flow(c.patch, c.band, options);
         expect_flow_laws(c, flow);
         expect_arc_length(c, flow, c.band.left.front());
     }
@@ -344,7 +344,7 @@ TEST(Strips, LawsHoldRoundJaggedLoops) {
         const Options options = gates(1 + static_cast<int>(seed % 6));
         const Case c(surface, torus.jagged_loop(1 + static_cast<int>(seed % 3), seed), options);
         SCOPED_TRACE(seed);
-        expect_all_laws(surface, c, options);
+        expect_all_laws(c, options);
         swallowed += c.swallowed();
         std::set<int> first(c.strips[0].begin(), c.strips[0].end());
         touching += static_cast<int>(std::ranges::count_if(c.strips[1], [&](int v) { return first.contains(v); }));
@@ -358,7 +358,7 @@ TEST(Strips, LawsHoldOverTheWholeSurface) {
         const Torus torus{.faces = faces, .jitter = 0.3};
         const Surface surface = torus.surface();
         const Case c(surface, torus.jagged_loop(2, 5), gates(std::nullopt));
-        expect_all_laws(surface, c, gates(std::nullopt));
+        expect_all_laws(c, gates(std::nullopt));
     }
 }
 
@@ -367,7 +367,7 @@ TEST(Strips, LawsHoldAmongPolygonsOfManySides) {
         const Torus torus{.faces = Faces::mixed, .jitter = 0.1 * (seed % 3), .seed = seed};
         const Surface surface = torus.surface();
         SCOPED_TRACE(seed);
-        expect_all_laws(surface, Case(surface, torus.ring(), gates(4)), gates(4));
+        expect_all_laws(Case(surface, torus.ring(), gates(4)), gates(4));
     }
 }
 
@@ -391,7 +391,7 @@ TEST(Strips, LawsHoldInPinchedBands) {
         const Surface surface = torus.surface(hidden);
         const Case c(surface, loop, gates(3));
         SCOPED_TRACE(seed);
-        expect_all_laws(surface, c, gates(3));
+        expect_all_laws(c, gates(3));
         const std::set<int> border(c.strips.front().begin(), c.strips.front().end());
         pinched += std::ranges::any_of(c.strips.back(), [&](int v) { return border.contains(v); });
     }
@@ -433,7 +433,7 @@ TEST(Strips, LawsHoldWhereNoFaceEntered) {
         follow_contour(c.band.right[1]);
         c.strips = strip_boundaries(c.patch, c.band);
         SCOPED_TRACE(shift);
-        expect_all_laws(surface, c, gates(1));
+        expect_all_laws(c, gates(1));
     }
 }
 
@@ -446,7 +446,7 @@ TEST(Strips, LawsHoldRoundPlaneCuts) {
         for (const Curve& loop : plane_loops(surface, normal, 0.1 * seed)) {
             if (loop.size() < 8) continue;
             SCOPED_TRACE(seed);
-            expect_all_laws(surface, Case(surface, loop, gates(4)), gates(4));
+            expect_all_laws(Case(surface, loop, gates(4)), gates(4));
             ++met;
         }
     }
@@ -471,7 +471,7 @@ TEST(StripFlow, LeavesTheCrossEdgesOfARegularGridLevel) {
         Options options = gates(4);
         options.flow = kind;
         const Case c(surface, torus.ring(), options);
-        for (const auto& [edge, increment] : edge_flow(surface, c, options)) {
+        for (const auto& [edge, increment] : edge_flow(c, options)) {
             const int columns = edge.second / torus.across - edge.first / torus.across;
             EXPECT_NEAR(increment, std::remainder(columns, torus.around) / torus.around, 1e-12);
         }
@@ -501,7 +501,7 @@ TEST(StripFlow, GatesTieNarrowsWhereArcLengthDrifts) {
     const auto drift = [&](FlowKind kind) {
         Options options = gates(std::nullopt);
         options.flow = kind;
-        const EdgeFlow flow = edge_flow(surface, Case(surface, ring, options), options);
+        const EdgeFlow flow = edge_flow(Case(surface, ring, options), options);
         double sum = 0.0;
         for (int i = 0; i < columns; ++i)
             for (int j = 1; j + 1 < rows; ++j) sum += std::abs(flow.at({j * columns + i, (j + 1) * columns + i}));
@@ -518,7 +518,7 @@ TEST(StripFlow, ArcLengthIsEachStripsOwn) {
     options.flow = FlowKind::arc_length;
     const Case c(surface, torus.ring(), options);
     ASSERT_EQ(c.strips.size(), 7u);
-    const Flow flow = make_flow(surface, c.patch, c.band, options);
+    const Flow flow = make_flow(c.patch, c.band, options);
     for (const Curve& strip : c.strips) expect_arc_length(c, flow, strip);
 }
 
@@ -528,12 +528,12 @@ TEST(StripFlow, ReversalNegatesAndAShiftChangesNothing) {
         const Surface surface = torus.surface();
         const Options options = gates(3);
         Curve loop = torus.jagged_loop(1 + static_cast<int>(seed % 2), seed);
-        const EdgeFlow flow = edge_flow(surface, Case(surface, loop, options), options);
+        const EdgeFlow flow = edge_flow(Case(surface, loop, options), options);
         SCOPED_TRACE(seed);
         std::rotate(loop.begin(), loop.begin() + 7, loop.end());
-        EXPECT_LT(largest_difference(flow, edge_flow(surface, Case(surface, loop, options), options), 1.0), 1e-9);
+        EXPECT_LT(largest_difference(flow, edge_flow(Case(surface, loop, options), options), 1.0), 1e-9);
         std::ranges::reverse(loop);
-        EXPECT_LT(largest_difference(flow, edge_flow(surface, Case(surface, loop, options), options), -1.0), 1e-9);
+        EXPECT_LT(largest_difference(flow, edge_flow(Case(surface, loop, options), options), -1.0), 1e-9);
     }
 }
 
@@ -557,7 +557,7 @@ TEST(StripFlow, RisesAlongEdgesWithoutLength) {
     for (const FlowKind kind : {FlowKind::gates, FlowKind::arc_length}) {
         Options options = gates(3);
         options.flow = kind;
-        expect_flow_laws(c, make_flow(surface, c.patch, c.band, options));
+        expect_flow_laws(c, make_flow(c.patch, c.band, options));
     }
 }
 
@@ -681,11 +681,11 @@ void expect_open_flow_laws(const Case& c, const Flow& flow) {
     EXPECT_EQ(flow.value[c.patch.contour.back()], 1.0);
 }
 
-void expect_all_open_laws(const Surface& surface, const Case& c, Options options) {
+void expect_all_open_laws(const Case& c, Options options) {
     expect_strip_laws(c);
     for (const FlowKind kind : {FlowKind::gates, FlowKind::arc_length}) {
         options.flow = kind;
-        const Flow flow = make_flow(surface, c.patch, c.band, options);
+        const Flow flow = make_flow(c.patch, c.band, options);
         expect_flow_laws(c, flow);
         expect_open_flow_laws(c, flow);
         expect_arc_length(c, flow, c.patch.contour);
@@ -698,7 +698,7 @@ TEST(OpenStrips, LawsHoldRoundJaggedCurves) {
     for (unsigned seed = 0; seed < open_cases; ++seed) {
         const OpenCase open(seed);
         SCOPED_TRACE(seed);
-        expect_all_open_laws(open.surface, open.c, open.options);
+        expect_all_open_laws(open.c, open.options);
         swallowed += open.c.swallowed() - static_cast<int>(open.c.beyond().size());
         beyond += open.c.beyond().size();
     }
@@ -713,7 +713,7 @@ TEST(OpenStrips, LawsHoldOverTheWholeSurface) {
         const Curve loop = torus.jagged_loop(2, 5);
         const Case c(surface, Curve(loop.begin(), loop.begin() + 12), gates(std::nullopt), false);
         EXPECT_EQ(euler_characteristic(c), 1);
-        expect_all_open_laws(surface, c, gates(std::nullopt));
+        expect_all_open_laws(c, gates(std::nullopt));
     }
 }
 
@@ -721,7 +721,7 @@ TEST(OpenStrips, LawsHoldAroundASingleEdge) {
     for (const Faces faces : {Faces::quads, Faces::triangles}) {
         const Torus torus{.faces = faces, .jitter = 0.2};
         const Surface surface = torus.surface();
-        expect_all_open_laws(surface, Case(surface, {torus.vertex(3, 8), torus.vertex(4, 8)}, gates(3), false), gates(3));
+        expect_all_open_laws(Case(surface, {torus.vertex(3, 8), torus.vertex(4, 8)}, gates(3), false), gates(3));
     }
 }
 
@@ -732,10 +732,10 @@ TEST(OpenStripFlow, ReversalIsOneMinusTheFlow) {
         const Options options = gates(1 + static_cast<int>(seed % 4));
         const Curve loop = torus.jagged_loop(1 + static_cast<int>(seed % 2), seed);
         Curve contour(loop.begin(), loop.begin() + 14);
-        const EdgeFlow flow = edge_flow(surface, Case(surface, contour, options, false), options);
+        const EdgeFlow flow = edge_flow(Case(surface, contour, options, false), options);
         SCOPED_TRACE(seed);
         std::ranges::reverse(contour);
-        EXPECT_LT(largest_difference(flow, edge_flow(surface, Case(surface, contour, options, false), options), -1.0), 1e-9);
+        EXPECT_LT(largest_difference(flow, edge_flow(Case(surface, contour, options, false), options), -1.0), 1e-9);
     }
 }
 
@@ -776,7 +776,7 @@ TEST(OpenStripFlow, EndsOnTheBorderHoldItsWholePiece) {
             options.ends = Ends::border;
             const Case c(surface, contour, options, false);
             expect_strip_laws(c);
-            const Flow flow = make_flow(surface, c.patch, c.band, options);
+            const Flow flow = make_flow(c.patch, c.band, options);
             const std::vector<int> first = border_piece(c.patch, c.band, c.patch.contour.front());
             const std::vector<int> last = border_piece(c.patch, c.band, c.patch.contour.back());
             ASSERT_GE(first.size(), 7u);
@@ -811,7 +811,7 @@ TEST(OpenStripFlow, EndsOnOnePieceOfBorderHoldThemselves) {
     Options options = gates(4);
     options.ends = Ends::border;
     const Case c(surface, contour, options, false);
-    expect_all_open_laws(surface, c, options);
+    expect_all_open_laws(c, options);
 }
 
 }  // namespace

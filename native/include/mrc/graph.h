@@ -35,7 +35,6 @@ struct ContourGraph {
     int crossing = 0;           ///< how many chords cross the level: the size of the cut
     double level = 0.0;         ///< the flow's value at the cut
     WeightedGraph search;       ///< sources first, then the chords from 0 on
-    std::vector<int> given;     ///< nodes of the given contour from source to destination; empty where it is no path
 
     int chord_of(int node) const { return node < crossing ? static_cast<int>(chords.size()) - crossing + node : node - crossing; }
 };

@@ -47,6 +47,7 @@ Contour checked_contour(const Surface& surface, const Contour& contour);
 bool has_neighbour_along_edges(const Surface& surface, const Contour& contour);
 
 /// Cuts out the neighbourhood of a contour that `checked_contour` gave.
+/// @throws InvalidInput where it has no neighbour along edges.
 /// `rings`: how far the patch reaches; none: to the whole connected component.
 Patch make_patch(const Surface& surface, const Contour& contour, std::optional<int> rings);
 

@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Defects that were found and mended, each with its smallest case."""
+
+import meshes
+import mrcontour as mrc
+import numpy as np
+import pytest
+from conftest import surface_of
+
+
+def tube(rows=6, columns=8, **more):
+    return meshes.tube([1.0, 0.9, 0.7, 0.9, 1.0, 1.1][:rows], columns, **more)
+
+
+def ring(row, columns=8):
+    return columns * row + np.arange(columns)
+
+
+def test_scales_of_another_surface_are_refused():
+    large = meshes.tube([1.0] * 60, 40)
+    scales = mrc.optimize(surface_of(large), ring(50, 40)).scales
+    for call in (mrc.optimize, mrc.measure):
+        with pytest.raises(ValueError, match="another surface"):
+            call(surface_of(tube()), ring(2), scales=scales)
+
+
+def test_iterations_go_on_after_the_first_feasible_contour():
+    """A wide way from a loop that lacks the required vertex: one iteration with a narrow band is not enough."""
+    mesh = meshes.tube([1.0, 1.0, 1.0, 0.9, 0.8, 0.6, 0.8, 1.0], 8, rng=np.random.default_rng(2), noise=0.03)
+    surface, wanted = surface_of(mesh), [8 * 2]
+    results = [
+        mrc.optimize(
+            surface, ring(1), options=mrc.Options(width=1, iterations=n, max_turn=2.5), required_vertices=wanted
+        )
+        for n in (1, 8)
+    ]
+    assert [r.status for r in results] == ["constrained"] * 2
+    assert results[1].statistics["iterations"] > 1
+    assert results[1].objective <= results[0].objective
+
+
+def test_attractors_may_be_an_array_and_bad_ones_are_named():
+    surface = surface_of(tube())
+    rows = np.array([[3.0, 0.5, 1.0]])
+    one, two = (
+        mrc.optimize(surface, ring(2), attractors=rows),
+        mrc.optimize(surface, ring(2), attractors=[(3, 0.5, 1.0)]),
+    )
+    assert one.ratio == two.ratio
+    for bad in ([("a", 1, 1)], [(1.5, 1, 1)], [(1, 1)], [3]):
+        with pytest.raises((TypeError, ValueError), match="attractor"):
+            mrc.optimize(surface, ring(2), attractors=bad)
+
+
+def test_a_contour_through_its_own_edge_is_not_simple():
+    mesh = tube(split_share=1.0)
+    surface, a, b = surface_of(mesh), 17, 18
+    points = [(a, a), (b, b), (b + 8, b + 8), (a, b), (a - 8, b - 8)]
+    with pytest.raises(ValueError, match="twice|crosses|touch"):
+        mrc.measure(surface, edge_vertices=points, edge_parameters=[0, 0, 0, 0.5, 0], closed=False)
+
+
+def test_one_point_written_from_both_ends_of_its_edge_is_one_point():
+    surface = surface_of(tube())
+    points, parameters = [(16, 16), (16, 17), (17, 16), (17, 17)], [0, 0.1, 0.9, 0]
+    with pytest.raises(ValueError, match="twice"):
+        mrc.measure(surface, edge_vertices=points, edge_parameters=parameters, closed=False)
+
+
+def test_numbers_beyond_range_are_refused():
+    mesh = tube()
+    surface = mrc.Surface(np.asarray(mesh.positions) * 1e200, *face_arrays(mesh))
+    with pytest.raises(ValueError, match="scale the mesh"):
+        mrc.optimize(surface, ring(2))
+
+
+def face_arrays(mesh):
+    offsets = np.concatenate([[0], np.cumsum([len(face) for face in mesh.faces])])
+    return offsets, np.concatenate([np.asarray(face) for face in mesh.faces])
+
+
+@pytest.mark.parametrize("k", [0, 1])
+def test_along_an_edge_the_left_face_holds_the_segment(k):
+    mesh = tube()
+    result = mrc.optimize(surface_of(mesh), ring(2), options=mrc.Options(refinement=k, iterations=0 if k == 0 else 1))
+    ends, count = result.edge_vertices, len(result.edge_vertices)
+    rings = {a // 8 for a, _ in ends.tolist()} | {b // 8 for _, b in ends.tolist()}
+    assert len(rings) == 1, "the best contour of this tube keeps to a ring"
+    row = rings.pop()
+    step = (ends[1, 1] - ends[0, 0]) % 8  # walking with the columns, the face above is on the left
+    above = {f for f, face in enumerate(mesh.faces) if {v // 8 for v in face} == {row, row + 1}}
+    below = {f for f, face in enumerate(mesh.faces) if {v // 8 for v in face} == {row - 1, row}}
+    left = above if step in (1, 2) else below
+    assert len(result.segment_faces) == count
+    assert set(result.segment_faces.tolist()) <= left
+
+
+def test_a_mask_of_hidden_faces_has_an_entry_for_each_face():
+    mesh = tube()
+    for mask in (np.zeros(3, bool), np.zeros((3, 2), bool)):
+        with pytest.raises(ValueError, match="mask"):
+            mrc.Surface(mesh.positions, *face_arrays(mesh), hidden_faces=mask)
+
+
+def test_a_refined_result_along_hidden_faces_can_be_given_again():
+    mesh = meshes.tube([1.3, 1.0, 0.7, 1.0, 1.3], 8)
+    surface = surface_of(mesh, hidden_faces=np.arange(16, dtype=np.int32))
+    options = mrc.Options(width=2, refinement=1)
+    first = mrc.optimize(surface, ring(3), options=options)
+    again = mrc.optimize(surface, first, options=options, scales=first.scales)
+    assert again.objective <= first.objective + 1e-12
+
+
+def test_an_open_refined_contour_may_begin_inside_an_edge():
+    surface = surface_of(tube(split_share=1.0))
+    points = [(16, 17), (17, 17), (18, 18), (19, 19)]
+    for k in (0, 1, 2):
+        result = mrc.optimize(
+            surface,
+            edge_vertices=points,
+            edge_parameters=[0.5, 0, 0, 0],
+            closed=False,
+            options=mrc.Options(refinement=k, ends="vertices"),
+        )
+        assert result.status in ("improved", "unchanged")
+
+
+def test_requirements_that_nothing_was_done_for_are_an_error():
+    with pytest.raises(mrc.Infeasible, match="no iteration"):
+        mrc.optimize(surface_of(tube()), ring(2), options=mrc.Options(iterations=0), required_vertices=[0])
+
+
+def test_a_phase_across_faces_never_ends_above_the_given_contour():
+    for seed in range(40):
+        rng = np.random.default_rng(seed)
+        mesh = meshes.tube(rng.uniform(0.7, 1.3, 6), 7, step=0.5, rng=rng, noise=0.1, split_share=0.5)
+        given = meshes.zigzag_contour(rng, 7, 2, 4)
+        options = mrc.Options(refinement=1, regular_iterations=2, width=2, max_turn=float(rng.uniform(0.8, 2.0)))
+        result = mrc.optimize(surface_of(mesh), given, options=options)
+        assert result.objective <= result.initial_objective + 1e-12 * result.scales.K
+
+
+@pytest.mark.parametrize("answer", [False, np.bool_(False), 0])
+def test_any_false_answer_cancels(answer):
+    assert mrc.optimize(surface_of(tube()), ring(3), progress=lambda share: answer).status == "cancelled"
+    assert mrc.optimize(surface_of(tube()), ring(3), progress=lambda share: None).status != "cancelled"
