@@ -199,7 +199,7 @@ Measure measure(const Surface& surface, const Energy& energy, const Contour& giv
     result.ratio = result.numerator / result.length;
     const Objective objective = energy.objective();
     result.objective = objective.value(result.numerator, result.length);
-    result.salience = -bending / (energy.unit() * result.length);
+    result.salience = 0.0 - bending / (energy.unit() * result.length);  // never -0, which reads oddly
     return result;
 }
 
