@@ -40,16 +40,6 @@ double DistanceField::at(int vertex) const {
     return best_.at(vertex);
 }
 
-std::vector<std::pair<int, double>> distances_from(const Surface& surface, std::span<const int> vertices, double limit) {
-    std::vector<std::pair<int, double>> settled;
-    settle_outwards(surface, vertices, [&](int vertex, double distance) {
-        if (distance > limit) return false;
-        settled.emplace_back(vertex, distance);
-        return true;
-    });
-    return settled;
-}
-
 std::vector<int> vertices_within(const Surface& surface, std::span<const int> vertices, int rings) {
     std::vector<int> found;
     std::unordered_set<int> seen;

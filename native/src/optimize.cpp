@@ -345,7 +345,6 @@ SearchSpace search_space(const Surface& surface, const Contour& contour, const O
     const Contour checked = checked_input(surface, contour, options, wishes, scales);
     const Setting setting(surface, checked, options, wishes.attractors, scales);
     SearchSpace space;
-    if (!has_neighbour_along_edges(surface, checked)) throw InvalidInput(no_neighbour);
     space.patch = make_patch(surface, checked, options.width);
     space.band = grow_band(surface, space.patch, options, wishes);
     space.flow = make_flow(space.patch, space.band, options);

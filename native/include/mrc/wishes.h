@@ -25,7 +25,6 @@ struct Wishes {
     std::vector<std::array<int, 2>> barriers;  ///< real edges that neither band nor contour crosses
     std::vector<double> region_density;        ///< of each face, per area, for the region term (6.1.2); empty: none
 
-    bool constrains() const { return !required_vertices.empty() || !required_edges.empty(); }
     /// @throws InvalidInput that names the element: out of range, no real edge, radius or sigma not above 0.
     void check(const Surface& surface) const;
 };
