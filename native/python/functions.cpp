@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings.h"
+#include "inputs.h"
 #include "results.h"
 
 #include <mrc/optimize.h>
@@ -7,8 +8,6 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 namespace mrc_python {
 namespace {
@@ -17,102 +16,40 @@ using mrc::Options;
 using mrc::Scales;
 using mrc::Surface;
 
-/// A contour from vertex ids or points on edges, or from an earlier result.
-mrc::Contour to_contour(const py::object& vertices, bool closed, const py::object& edge_vertices,
-                        const py::object& edge_parameters) {
-    if (vertices.is_none() == edge_vertices.is_none())
-        throw py::value_error("give either vertices, or edge_vertices with edge_parameters");
-    if (py::isinstance<PyResult>(vertices)) return vertices.cast<const PyResult&>().result.contour;
-    if (!vertices.is_none()) {
-        const Integers ids = integers(vertices, "vertices");
-        require_shape(ids, 0, "vertices");
-        return mrc::vertex_contour(view(ids), closed);
-    }
-    const Integers ends = integers(edge_vertices, "edge_vertices");
-    require_shape(ends, 2, "edge_vertices");
-    const Doubles parameters = doubles(edge_parameters, "edge_parameters");
-    require_shape(parameters, 0, "edge_parameters");
-    if (parameters.size() != ends.shape(0)) {
-        throw py::value_error("edge_parameters has " + std::to_string(parameters.size()) + " entries for " +
-                              std::to_string(ends.shape(0)) + " edge_vertices");
-    }
-    mrc::Contour contour{{}, closed};
-    for (py::ssize_t i = 0; i < ends.shape(0); ++i) contour.points.push_back({ends.at(i, 0), ends.at(i, 1), parameters.at(i)});
-    return contour;
-}
-
-std::vector<std::array<int, 2>> edge_pairs(const py::object& edges, const char* name) {
-    const Integers pairs = integers(edges, name);
-    if (pairs.size() == 0) return {};
-    require_shape(pairs, 2, name);
-    std::vector<std::array<int, 2>> result;
-    for (py::ssize_t i = 0; i < pairs.shape(0); ++i) result.push_back({pairs.at(i, 0), pairs.at(i, 1)});
-    return result;
-}
-
-std::vector<mrc::Attractor> to_attractors(const py::iterable& attractors) {
-    std::vector<mrc::Attractor> result;
-    for (const py::handle item : attractors) {
-        const Doubles fields = doubles(py::reinterpret_borrow<py::object>(item), "an attractor");
-        if (fields.ndim() != 1 || (fields.size() != 3 && fields.size() != 4)) {
-            throw py::value_error("an attractor is (vertex, radius, strength) or (vertex, radius, strength, sigma)");
-        }
-        const double vertex = fields.at(0);
-        if (!(vertex == std::floor(vertex) && std::abs(vertex) < 2147483648.0)) {
-            throw py::value_error("an attractor's vertex must be a whole number");
-        }
-        mrc::Attractor a{static_cast<int>(vertex), fields.at(1), fields.at(2), std::nullopt};
-        if (fields.size() == 4) a.sigma = fields.at(3);
-        result.push_back(a);
-    }
-    return result;
-}
-
-std::vector<double> to_density(const py::object& density) {
-    if (density.is_none()) return {};
-    const Doubles values = doubles(density, "region_density");
-    require_shape(values, 0, "region_density");
-    return {values.data(), values.data() + values.size()};
-}
-
-mrc::Wishes to_wishes(const py::object& required_vertices, const py::object& required_edges, const py::iterable& attractors,
-                      const py::object& barriers, const py::object& region_density) {
-    mrc::Wishes wishes;
-    const Integers vertices = integers(required_vertices, "required_vertices");
-    if (vertices.size() > 0) require_shape(vertices, 0, "required_vertices");
-    wishes.required_vertices.assign(vertices.data(), vertices.data() + vertices.size());
-    wishes.required_edges = edge_pairs(required_edges, "required_edges");
-    wishes.attractors = to_attractors(attractors);
-    wishes.barriers = edge_pairs(barriers, "barriers");
-    wishes.region_density = to_density(region_density);
-    return wishes;
-}
-
 PyResult optimize(const Surface& surface, const py::object& vertices, bool closed, const Options& options,
                   const py::object& required_vertices, const py::object& required_edges, const py::iterable& attractors,
                   const py::object& barriers, const py::object& region_density, const Scales* scales, const py::object& progress,
                   const py::object& edge_vertices, const py::object& edge_parameters) {
     const mrc::Contour contour = to_contour(vertices, closed, edge_vertices, edge_parameters);
-    const mrc::Wishes wishes = to_wishes(required_vertices, required_edges, attractors, barriers, region_density);
-    mrc::Progress report;
-    if (!progress.is_none()) {
-        report = [&progress](double share) {
-            const py::gil_scoped_acquire acquire;
-            const py::object answer = progress(share);
-            return answer.is_none() || PyObject_IsTrue(answer.ptr()) != 0;
-        };
-    }
+    const Density density = to_density(region_density);
+    const mrc::Wishes wishes = to_wishes(required_vertices, required_edges, attractors, barriers, density);
+    const mrc::Progress report = to_progress(progress);
     const py::gil_scoped_release release;
     return describe(surface, mrc::optimize(surface, contour, options, wishes, scales, report));
+}
+
+std::vector<PyResult> optimize_all(const Surface& surface, const py::sequence& contours, const py::object& closed,
+                                   const Options& options, const py::object& required_vertices, const py::object& required_edges,
+                                   const py::iterable& attractors, const py::object& barriers, const py::object& region_density,
+                                   const py::object& scales, const py::object& progress) {
+    const Density density = to_density(region_density);
+    const mrc::Wishes shared = to_wishes(py::tuple(), py::tuple(), attractors, barriers, density);
+    const std::vector<mrc::Task> tasks = to_tasks(contours, closed, required_vertices, required_edges, shared, scales);
+    const mrc::Progress report = to_progress(progress);
+    const py::gil_scoped_release release;
+    std::vector<PyResult> described;
+    for (mrc::Result& result : mrc::optimize_all(surface, tasks, options, report)) {
+        described.push_back(describe(surface, std::move(result)));
+    }
+    return described;
 }
 
 mrc::Measure measure(const Surface& surface, const py::object& vertices, bool closed, const Options& options,
                      const py::iterable& attractors, const py::object& region_density, const Scales* scales,
                      const py::object& edge_vertices, const py::object& edge_parameters) {
     const mrc::Contour contour = to_contour(vertices, closed, edge_vertices, edge_parameters);
-    mrc::Wishes wishes;
-    wishes.attractors = to_attractors(attractors);
-    wishes.region_density = to_density(region_density);
+    const Density density = to_density(region_density);
+    const mrc::Wishes wishes = to_wishes(py::tuple(), py::tuple(), attractors, py::tuple(), density);
     const py::gil_scoped_release release;
     return mrc::measure(surface, contour, options, wishes, scales);
 }
@@ -281,6 +218,20 @@ void bind_functions(py::module_& module) {
         "progress: called with the share done, from 0 to 1; returning False cancels, an exception passes through.\n"
         "Returns a Result. Raises ValueError naming the elements where the contour is not simple or not inside the mesh, and\n"
         "Infeasible, a ValueError, where no contour of the band has all required elements.");
+    module.def(
+        "optimize_all", &optimize_all, py::arg("surface"), py::arg("contours"), py::arg("closed") = true,
+        py::arg("options") = defaults, py::arg("required_vertices") = nothing, py::arg("required_edges") = nothing,
+        py::arg("attractors") = nothing, py::arg("barriers") = nothing, py::arg("region_density") = py::none(),
+        py::arg("scales") = py::none(), py::arg("progress") = py::none(),
+        "Optimizes several contours of one surface, in parallel; they never cross or touch where the given ones did not (1.4).\n\n"
+        "contours: a sequence, each as (N,) vertex ids, as a tuple of edge_vertices (N, 2) and edge_parameters (N,), or an\n"
+        "earlier Result.\n"
+        "closed, required_vertices, required_edges, scales: one for all contours, or a sequence with one for each.\n"
+        "The other arguments are those of optimize.\n"
+        "Each contour searches the faces that are nearer to it than to any other; what two bands share is closed to both. The\n"
+        "results do not depend on the order of the contours, nor on the option threads.\n"
+        "Returns a list of Results; held_back_by says which other contours kept one's band from growing. Raises what optimize\n"
+        "raises, naming the contour by its place in the list.");
     module.def("measure", &measure, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true,
                py::arg("options") = defaults, py::arg("attractors") = nothing, py::arg("region_density") = py::none(),
                py::arg("scales") = py::none(), py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),

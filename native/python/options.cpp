@@ -57,7 +57,7 @@ Options make_options(std::optional<int> width, double curvature_radius, double c
                      std::optional<double> feature_clamp, double crease, double length_bias, double length_floor,
                      const std::string& length_measure, const std::string& denominator, std::optional<double> min_salience,
                      int refinement, int regular_iterations, const std::string& ends, double region_weight,
-                     const std::string& region_side) {
+                     const std::string& region_side, int threads) {
     Options options;
     options.width = width;
     options.curvature_radius = curvature_radius;
@@ -83,6 +83,7 @@ Options make_options(std::optional<int> width, double curvature_radius, double c
     options.region_side = parse(region_side_names, "region_side", region_side);
     options.refinement = refinement;
     options.regular_iterations = regular_iterations;
+    options.threads = threads;
     options.check();
     return options;
 }
@@ -106,7 +107,7 @@ void bind_options(py::module_& module) {
              py::arg("min_salience") = defaults.min_salience, py::arg("refinement") = defaults.refinement,
              py::arg("regular_iterations") = defaults.regular_iterations, py::arg("ends") = name_of(ends_names, defaults.ends),
              py::arg("region_weight") = defaults.region_weight,
-             py::arg("region_side") = name_of(region_side_names, defaults.region_side),
+             py::arg("region_side") = name_of(region_side_names, defaults.region_side), py::arg("threads") = defaults.threads,
              "width: rings of faces to each side, at least 1; None: until topology stops the band (4.2.1).\n"
              "band_distance: besides, from the third ring on, only faces within this distance of the contour, in average radii of\n"
              "the connected component; None: no bound.\n"
@@ -130,6 +131,7 @@ void bind_options(py::module_& module) {
              "min_salience: where the best found is less salient than this, the given contour stays; None: it always moves.\n"
              "ends: of open curves: 'edges' holds the first and last edge, 'vertices' their ends, 'border' lets ends on the mesh\n"
              "border slide along it (4.6).\n"
+             "threads: on which optimize_all works; 0: as many as the machine has. No result depends on it.\n"
              "flow: 'gates', 'arc_length' or 'harmonic' (4.2.3).\n"
              "max_turn: radians in the tangent plane, above 0 and at most pi; sharper turns are pruned (3.2).")
         .def_readonly("width", &Options::width)
@@ -154,6 +156,7 @@ void bind_options(py::module_& module) {
         .def_property_readonly("length_measure", [](const Options& o) { return name_of(length_measure_names, o.length_measure); })
         .def_property_readonly("denominator", [](const Options& o) { return name_of(denominator_names, o.denominator); })
         .def_property_readonly("ends", [](const Options& o) { return name_of(ends_names, o.ends); })
+        .def_readonly("threads", &Options::threads)
         .def_readonly("region_weight", &Options::region_weight)
         .def_property_readonly("region_side", [](const Options& o) { return name_of(region_side_names, o.region_side); });
 }

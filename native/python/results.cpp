@@ -116,6 +116,10 @@ void bind_results(py::module_& module) {
         .def_property_readonly("lower_bound", field(&mrc::Result::lower_bound),
                                "No contour of the last iteration's graph has a lower objective.")
         .def_property_readonly("gap", field(&mrc::Result::gap), "Objective of the best found minus lower_bound.")
+        .def_property_readonly(
+            "held_back_by", [](const PyResult& r) { return py::tuple(py::cast(r.result.held_back_by)); },
+            "tuple of int: of optimize_all's contours those that kept this one's last band from growing, by their place in the "
+            "list.")
         .def_property_readonly("history", field(&mrc::Result::history), "Objective before the first and after each iteration.")
         .def_property_readonly("scales", field(&mrc::Result::scales))
         .def_property_readonly("statistics", &statistics)

@@ -50,8 +50,13 @@ class PolygonSides {
 
 class Grower {
   public:
-    Grower(const Patch& patch, double farthest, const Wishes& wishes)
-        : patch_(patch), mesh_(patch.mesh), sides_(patch), farthest_(farthest) {
+    Grower(const Patch& patch, double farthest, const Wishes& wishes, const Territory& territory)
+        : patch_(patch),
+          mesh_(patch.mesh),
+          sides_(patch),
+          farthest_(farthest),
+          refused_(territory.refused),
+          barrier_(territory.wall) {
         band_.face.assign(mesh_.n_faces(), 0);
         band_.side.assign(mesh_.n_vertices(), Side::outside);
         band_.round.assign(mesh_.n_vertices(), -1);
@@ -78,6 +83,7 @@ class Grower {
         }
         if (!patch_.closed) close_ends();
         mark_edges();
+        std::ranges::sort(band_.refused);
         return std::move(band_);
     }
 
@@ -91,10 +97,11 @@ class Grower {
     const Patch& patch_;
     const PatchMesh& mesh_;
     PolygonSides sides_;
-    double farthest_;  // how far from the contour the third and later rounds may reach
-    Band band_;
-    std::vector<Side> front_;    // half-edges of outer polygons whose other side is in the band
+    double farthest_;            // how far from the contour the third and later rounds may reach
+    std::vector<char> refused_;  // of each polygon
     std::vector<char> barrier_;  // of each patch edge
+    Band band_;
+    std::vector<Side> front_;  // half-edges of outer polygons whose other side is in the band
     std::vector<char> polygon_in_;
     std::vector<int> rank_;        // of each polygon in the order of distance
     std::vector<int> candidates_;  // polygons that might enter in the last round
@@ -103,7 +110,8 @@ class Grower {
     bool is_front(int h) const { return front_[h] != Side::outside && !barrier_[h / 2]; }
 
     void mark_barriers(const Wishes& wishes) {
-        barrier_.assign(mesh_.n_edges(), 0);
+        barrier_.resize(mesh_.n_edges(), 0);
+        refused_.resize(patch_.polygon_count(), 0);
         if (wishes.barriers.empty()) return;
         std::unordered_map<int, int> local;
         for (std::size_t v = 0; v < patch_.vertex.size(); ++v) local.emplace(patch_.vertex[v], static_cast<int>(v));
@@ -215,12 +223,25 @@ class Grower {
         return found;
     }
 
+    /// Takes out those that belong to others, and notes the ones that the band has met.
+    void leave_to_others(std::vector<int>& polygons) {
+        std::erase_if(polygons, [&](int polygon) {
+            if (refused_[polygon] == 0) return false;
+            if (refused_[polygon] == 1 && std::ranges::any_of(sides_[polygon], [&](int h) { return is_front(h); })) {
+                refused_[polygon] = 2;  // once is enough
+                band_.refused.push_back(polygon);
+            }
+            return true;
+        });
+    }
+
     /// One round of dilation. A polygon that may not enter yet is tried again after each neighbour that does.
     bool grow_round(int round) {
         std::vector<char> eligible(patch_.polygon_count(), 0);
         using Entry = std::pair<int, int>;  // rank, polygon
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
         candidates_ = candidates(round);
+        leave_to_others(candidates_);
         for (const int polygon : candidates_) {
             eligible[polygon] = 1;
             queue.emplace(rank_[polygon], polygon);
@@ -314,10 +335,11 @@ class Grower {
 
 }  // namespace
 
-Band grow_band(const Surface& surface, const Patch& patch, const Options& options, const Wishes& wishes) {
+Band grow_band(const Surface& surface, const Patch& patch, const Options& options, const Wishes& wishes,
+               const Territory& territory) {
     const double radius = options.band_distance ? surface.average_radius(patch.vertex[patch.contour[0]]) : 0.0;
     const double farthest = options.band_distance ? *options.band_distance * radius : std::numeric_limits<double>::infinity();
-    return Grower(patch, farthest, wishes).grow(options.width);
+    return Grower(patch, farthest, wishes, territory).grow(options.width);
 }
 
 }  // namespace mrc

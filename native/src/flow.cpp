@@ -71,8 +71,8 @@ std::vector<int> crossing_form(const Patch& patch, const Band& band) {
     return jump;
 }
 
-/// Fixed values: closed, 0 at the contour's first vertex; open, 0 at the first and 1 at the last, and for ends on the border all along
-/// the pieces of mesh border that hold them.
+/// Fixed values: closed, 0 at the contour's first vertex; open, 0 at the first and 1 at the last, and for free ends on the border all
+/// along the pieces of mesh border that hold them.
 std::vector<double> fixed_values(const Patch& patch, const Band& band, const Options& options) {
     std::vector<double> fixed(patch.vertex.size(), -1.0);
     fixed[patch.contour.front()] = 0.0;
@@ -82,8 +82,12 @@ std::vector<double> fixed_values(const Patch& patch, const Band& band, const Opt
     const std::vector<int> first = border_piece(patch, band, patch.contour.front());
     const std::vector<int> last = border_piece(patch, band, patch.contour.back());
     if (std::ranges::find(first, patch.contour.back()) != first.end()) return fixed;
-    for (const int v : first) fixed[v] = 0.0;
-    for (const int v : last) fixed[v] = 1.0;
+    if (!patch.first_end_held) {
+        for (const int v : first) fixed[v] = 0.0;
+    }
+    if (!patch.last_end_held) {
+        for (const int v : last) fixed[v] = 1.0;
+    }
     return fixed;
 }
 

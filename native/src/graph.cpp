@@ -30,7 +30,7 @@ struct DirectedSegment {
 class GraphBuilder {
   public:
     GraphBuilder(const Surface& surface, const Patch& patch, const Band& band, const Flow& flow, const Energy& energy,
-                 const Options& options, const Wishes& wishes, int steiner, const EdgeForm* region)
+                 const Options& options, const Wishes& wishes, int steiner, const EdgeForm* region, const Territory& territory)
         : surface_(surface),
           patch_(patch),
           band_(band),
@@ -38,12 +38,14 @@ class GraphBuilder {
           options_(options),
           wishes_(wishes),
           region_(region),
+          territory_(territory),
           given_(expressed(patch.given, steiner).points),
           ambient_(make_ambient_graph(patch, band, flow, steiner)) {}
 
     ContourGraph build() {
         merge_levels(ambient_.values, ambient_.segments);
         choose_level();
+        keep_off_others();
         orient();
         require();
         sort_chords();
@@ -60,6 +62,7 @@ class GraphBuilder {
     const Options& options_;
     const Wishes& wishes_;
     const EdgeForm* region_;
+    const Territory& territory_;
     const std::vector<SurfacePoint> given_;  // the given contour with the graph's own points along edges
     AmbientGraph ambient_;
     ContourGraph graph_;
@@ -73,6 +76,23 @@ class GraphBuilder {
             const double level = patch_.closed ? above(ambient_.values[p], graph_.level) : ambient_.values[p];
             graph_.points.push_back({ambient_.places[p], level, ambient_.ranks[p]});
         }
+    }
+
+    /// Points that another contour may come to are closed, but for the contour's own.
+    void keep_off_others() {
+        if (territory_.closed_vertex.empty()) return;
+        std::vector<char> closed(ambient_.point_count(), 0);
+        for (std::size_t v = 0; v < patch_.vertex.size(); ++v) {
+            if (ambient_.point_of_vertex[v] >= 0) closed[ambient_.point_of_vertex[v]] = territory_.closed_vertex[v];
+        }
+        for (std::size_t e = 0; e < territory_.closed_edge.size(); ++e) {
+            const int first = ambient_.first_point_of_edge[e];
+            for (int i = 0; first >= 0 && i < ambient_.steiner; ++i) closed[first + i] = territory_.closed_edge[e];
+        }
+        for (const SurfacePoint& own : territory_.own) {
+            if (const int p = ambient_.point_at(patch_, own); p >= 0) closed[p] = 0;
+        }
+        for (Segment& s : ambient_.segments) s.walkable &= !closed[s.a] && !closed[s.b];
     }
 
     /// Each segment becomes the chord that the flow runs along; a level one becomes two, by rank; of equal rank, none.
@@ -113,8 +133,9 @@ class GraphBuilder {
     int required_point(int vertex) const {
         const auto found = ambient_.local.find(vertex);
         if (found != ambient_.local.end()) return ambient_.point_of_vertex[found->second];
-        throw InvalidInput("required vertex " + std::to_string(vertex) +
-                           " lies outside the band: widen the band or drop the requirement");
+        const char* others = territory_.refused.empty() ? "" : ", which other contours may keep back";
+        throw InvalidInput("required vertex " + std::to_string(vertex) + " lies outside the band" + others +
+                           ": widen the band or drop the requirement");
     }
 
     /// Deletes the chords that no contour through the required elements can hold (4.4).
@@ -138,6 +159,10 @@ class GraphBuilder {
         requirements_.require(place(p));
         requirements_.require(place(q));
         std::vector<int> own = segments_of_edge(edge);
+        if (!std::ranges::all_of(own, [&](int s) { return ambient_.segments[s].walkable; })) {
+            throw InvalidInput("required edge (" + std::to_string(a) + ", " + std::to_string(b) +
+                               ") touches another contour or its band: drop the requirement");
+        }
         for (const DirectedSegment& d : directed_) {
             if (std::ranges::find(own, d.segment) != own.end()) requirements_.require(span(d), own);
         }
@@ -226,10 +251,10 @@ class GraphBuilder {
     }
 
     /// The points at which an open curve may end: its own end, or the piece of mesh border within the band that holds it.
-    std::vector<char> end_points(const SurfacePoint& end, const SurfacePoint& other) const {
+    std::vector<char> end_points(const SurfacePoint& end, const SurfacePoint& other, bool held) const {
         std::vector<char> allowed(graph_.points.size(), 0);
         if (const int own = ambient_.point_at(patch_, end); own >= 0) allowed[own] = 1;
-        if (options_.ends != Ends::border || !end.is_vertex() || !other.is_vertex()) return allowed;
+        if (held || options_.ends != Ends::border || !end.is_vertex() || !other.is_vertex()) return allowed;
         const std::vector<int> piece = border_piece(patch_, band_, ambient_.local.at(end.a));
         if (std::ranges::find(piece, ambient_.local.at(other.a)) != piece.end()) return allowed;
         for (const int v : piece) {
@@ -246,7 +271,8 @@ class GraphBuilder {
     /// eq. 3.3 leaves out.
     void add_open_ends(const std::vector<Frame>& frames, const std::vector<ChordEnd>& starts, const std::vector<ChordEnd>& ends) {
         const auto& given = given_;
-        const std::vector<char> first = end_points(given.front(), given.back()), last = end_points(given.back(), given.front());
+        const std::vector<char> first = end_points(given.front(), given.back(), patch_.first_end_held);
+        const std::vector<char> last = end_points(given.back(), given.front(), patch_.last_end_held);
         for (std::size_t c = 0; c < graph_.chords.size(); ++c) {
             const auto [tail, head, increment] = graph_.chords[c];
             const int node = static_cast<int>(c);
@@ -309,9 +335,10 @@ class GraphBuilder {
 }  // namespace
 
 ContourGraph make_graph(const Surface& surface, const Patch& patch, const Band& band, const Flow& flow, const Energy& energy,
-                        const Options& options, const Wishes& wishes, int steiner, const EdgeForm* region) {
+                        const Options& options, const Wishes& wishes, int steiner, const EdgeForm* region,
+                        const Territory& territory) {
     check_graph_size(static_cast<double>(std::ranges::count(band.face, 1)), steiner);
-    return GraphBuilder(surface, patch, band, flow, energy, options, wishes, steiner, region).build();
+    return GraphBuilder(surface, patch, band, flow, energy, options, wishes, steiner, region, territory).build();
 }
 
 }  // namespace mrc

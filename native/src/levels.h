@@ -11,7 +11,7 @@ struct Segment {
     int a, b, jump;
     int halfedge;          // of the surface, that it lies on, or -1
     int triangle;          // of the patch, that it lies inside, or -1
-    bool walkable = true;  // false on the border of the mesh: it only says what is level
+    bool walkable = true;  // false on the border of the mesh and where others are: it only says what is level
 };
 
 /// The whole and the broken part of a flow value above the cut.

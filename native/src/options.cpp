@@ -47,6 +47,7 @@ void Options::check() const {
     require(refinement >= 0, "refinement", refinement, "0 or more");
     require(regular_iterations >= 0, "regular_iterations", regular_iterations, "0 or more");
     require(iterations >= 0, "iterations", iterations, "0 or more");
+    require(threads >= 0, "threads", threads, "0 or more");
 }
 
 }  // namespace mrc

@@ -52,3 +52,30 @@ def segments_meet(a, b, c, d, shared):
         return not shared
     lines = (a, b, c), (a, b, d), (c, d, a), (c, d, b)
     return any(side == 0 and between(*line) for side, line in zip(turns, lines, strict=True))
+
+
+def meetings(mesh, one, two, closed=(True, True)):
+    """Points that two contours share, and pairs of their chords that cross or touch elsewhere."""
+    found = sorted(set(one) & set(two))
+    triangles = [tuple(t) for t in mesh.triangles.tolist()]
+    by_corner = {}
+    for triangle in triangles:
+        for corner in triangle:
+            by_corner.setdefault(corner, []).append(triangle)
+
+    def chords_by_triangle(points, is_closed):
+        within = {}
+        for chord in pairwise([*points, points[0]] if is_closed else points):
+            corners = {v for p in chord for v in p[:2]}
+            for triangle in by_corner[chord[0][0]]:
+                if corners <= set(triangle):
+                    within.setdefault(triangle, []).append(chord)
+        return within
+
+    first, second = (chords_by_triangle(*pair) for pair in zip((one, two), closed, strict=True))
+    for triangle in first.keys() & second.keys():
+        for p in first[triangle]:
+            for q in second[triangle]:
+                if segments_meet(*(flat(end, triangle) for end in (*p, *q)), shared=bool(set(p) & set(q))):
+                    found.append((p, q))
+    return found

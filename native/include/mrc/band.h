@@ -3,6 +3,7 @@
 
 #include <mrc/options.h>
 #include <mrc/patch.h>
+#include <mrc/territory.h>
 #include <mrc/wishes.h>
 
 #include <vector>
@@ -21,8 +22,9 @@ struct Band {
     /// left[r], right[r]: the boundary after round r as patch vertices, running along with the contour; [0] is the contour. Those of
     /// an open curve run from its first vertex to its last, before the `end_polygons` enter.
     std::vector<std::vector<int>> left, right;
-    int end_polygons = 0;  ///< the last of `polygons`, which join the two sides beyond the ends of an open curve
-    int rounds = 0;        ///< rounds that added something on either side
+    int end_polygons = 0;      ///< the last of `polygons`, which join the two sides beyond the ends of an open curve
+    int rounds = 0;            ///< rounds that added something on either side
+    std::vector<int> refused;  ///< local polygons that it met and that its territory refuses, ascending
 };
 
 /// Grows the band by whole polygons, round by round, so that it stays an annulus, or a disk round an open curve.
@@ -30,6 +32,7 @@ struct Band {
 /// A polygon enters when it meets the band in one connected chain of edges and its other vertices are outside (spike and merge,
 /// 4.2.1, are the triangle's two cases), in the order of its round and then of its distance from the contour. The chain lies on one
 /// side of the contour; last of all, polygons whose chains run round an end of an open curve, or on from there, close the disk.
-Band grow_band(const Surface& surface, const Patch& patch, const Options& options, const Wishes& wishes = {});
+Band grow_band(const Surface& surface, const Patch& patch, const Options& options, const Wishes& wishes = {},
+               const Territory& territory = {});
 
 }  // namespace mrc

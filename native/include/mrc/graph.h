@@ -5,6 +5,7 @@
 #include <mrc/flow.h>
 #include <mrc/ratio.h>
 #include <mrc/region.h>
+#include <mrc/territory.h>
 
 #include <array>
 #include <span>
@@ -42,6 +43,7 @@ struct ContourGraph {
 /// `region`: the form of the region term, if there is one.
 /// `steiner`: k, the Steiner points put on each edge; 0: contours keep to mesh edges.
 ContourGraph make_graph(const Surface& surface, const Patch& patch, const Band& band, const Flow& flow, const Energy& energy,
-                        const Options& options, const Wishes& wishes, int steiner, const EdgeForm* region = nullptr);
+                        const Options& options, const Wishes& wishes, int steiner, const EdgeForm* region = nullptr,
+                        const Territory& territory = {});
 
 }  // namespace mrc

@@ -33,6 +33,7 @@ struct Patch {
     Contour given;                  ///< the contour as given
     std::vector<int> contour;       ///< patch vertices of the contour, or of the nearest simple one along mesh edges, in order
     bool closed = true;
+    bool first_end_held = false, last_end_held = false;  ///< of an open curve: another contour shares the end, so that it stays
 
     int polygon_count() const { return static_cast<int>(polygon_face.size()); }
     bool diagonal_halfedge(int h) const { return diagonal[h / 2] != 0; }

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace mrc {
@@ -23,7 +24,7 @@ struct Wishes {
     std::vector<std::array<int, 2>> required_edges;  ///< real edges that it must run along
     std::vector<Attractor> attractors;
     std::vector<std::array<int, 2>> barriers;  ///< real edges that neither band nor contour crosses
-    std::vector<double> region_density;        ///< of each face, per area, for the region term (6.1.2); empty: none
+    std::span<const double> region_density;    ///< of each face, per area, for the region term (6.1.2); empty: none; not copied
 
     /// @throws InvalidInput that names the element: out of range, no real edge, radius or sigma not above 0.
     void check(const Surface& surface) const;

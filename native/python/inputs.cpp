@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "inputs.h"
+
+#include "results.h"
+
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace mrc_python {
+namespace {
+
+std::vector<std::array<int, 2>> edge_pairs(const py::object& edges, const char* name) {
+    const Integers pairs = integers(edges, name);
+    if (pairs.size() == 0) return {};
+    require_shape(pairs, 2, name);
+    std::vector<std::array<int, 2>> result;
+    for (py::ssize_t i = 0; i < pairs.shape(0); ++i) result.push_back({pairs.at(i, 0), pairs.at(i, 1)});
+    return result;
+}
+
+std::vector<mrc::Attractor> to_attractors(const py::iterable& attractors) {
+    std::vector<mrc::Attractor> result;
+    for (const py::handle item : attractors) {
+        const Doubles fields = doubles(py::reinterpret_borrow<py::object>(item), "an attractor");
+        if (fields.ndim() != 1 || (fields.size() != 3 && fields.size() != 4)) {
+            throw py::value_error("an attractor is (vertex, radius, strength) or (vertex, radius, strength, sigma)");
+        }
+        const double vertex = fields.at(0);
+        if (!(vertex == std::floor(vertex) && std::abs(vertex) < 2147483648.0)) {
+            throw py::value_error("an attractor's vertex must be a whole number");
+        }
+        mrc::Attractor a{static_cast<int>(vertex), fields.at(1), fields.at(2), std::nullopt};
+        if (fields.size() == 4) a.sigma = fields.at(3);
+        result.push_back(a);
+    }
+    return result;
+}
+
+/// Values of which there is one for all contours, or one for each.
+std::vector<py::object> one_each(const py::object& value, bool single, std::size_t count, const char* name) {
+    if (single) return std::vector<py::object>(count, value);
+    std::vector<py::object> values;
+    for (const py::handle item : value) values.push_back(py::reinterpret_borrow<py::object>(item));
+    if (values.size() != count) {
+        throw py::value_error(std::string(name) + " has " + std::to_string(values.size()) + " entries for " +
+                              std::to_string(count) + " contours: give one for all or one for each");
+    }
+    return values;
+}
+
+bool is_list(const py::handle& value) { return py::isinstance<py::sequence>(value) || py::isinstance<py::array>(value); }
+
+/// Lists nested to `depth`: ids are one deep, vertex pairs two.
+bool is_nested(const py::object& value, int depth) {
+    for (const py::handle item : value) {
+        if (!is_list(item)) return false;
+        if (depth == 1 || py::len(item) == 0 || is_nested(py::reinterpret_borrow<py::object>(item), depth - 1)) return true;
+    }
+    return false;
+}
+
+const mrc::Scales* to_scales(const py::object& scales) {
+    if (scales.is_none()) return nullptr;
+    if (!py::isinstance<mrc::Scales>(scales)) throw py::type_error("scales must be the Scales of an earlier result, or None");
+    return scales.cast<const mrc::Scales*>();
+}
+
+/// A contour of a list: vertex ids, points on edges as a pair of arrays, or an earlier result.
+mrc::Contour listed_contour(const py::object& item, bool closed) {
+    const bool points = py::isinstance<py::tuple>(item) && py::len(item) == 2 && is_list(py::tuple(item)[0]);
+    if (!points) return to_contour(item, closed, py::none(), py::none());
+    const py::tuple pair(item);
+    return to_contour(py::none(), closed, pair[0], pair[1]);
+}
+
+}  // namespace
+
+/// A contour from vertex ids or points on edges, or from an earlier result.
+mrc::Contour to_contour(const py::object& vertices, bool closed, const py::object& edge_vertices,
+                        const py::object& edge_parameters) {
+    if (vertices.is_none() == edge_vertices.is_none())
+        throw py::value_error("give either vertices, or edge_vertices with edge_parameters");
+    if (py::isinstance<PyResult>(vertices)) return vertices.cast<const PyResult&>().result.contour;
+    if (!vertices.is_none()) {
+        const Integers ids = integers(vertices, "vertices");
+        require_shape(ids, 0, "vertices");
+        return mrc::vertex_contour(view(ids), closed);
+    }
+    const Integers ends = integers(edge_vertices, "edge_vertices");
+    require_shape(ends, 2, "edge_vertices");
+    const Doubles parameters = doubles(edge_parameters, "edge_parameters");
+    require_shape(parameters, 0, "edge_parameters");
+    if (parameters.size() != ends.shape(0)) {
+        throw py::value_error("edge_parameters has " + std::to_string(parameters.size()) + " entries for " +
+                              std::to_string(ends.shape(0)) + " edge_vertices");
+    }
+    mrc::Contour contour{{}, closed};
+    for (py::ssize_t i = 0; i < ends.shape(0); ++i) contour.points.push_back({ends.at(i, 0), ends.at(i, 1), parameters.at(i)});
+    return contour;
+}
+
+Density to_density(const py::object& density) {
+    if (density.is_none()) return {Doubles(0), {}};
+    Doubles values = doubles(density, "region_density");
+    require_shape(values, 0, "region_density");
+    return {values, view(values)};
+}
+
+mrc::Wishes to_wishes(const py::object& required_vertices, const py::object& required_edges, const py::iterable& attractors,
+                      const py::object& barriers, const Density& region_density) {
+    mrc::Wishes wishes;
+    const Integers vertices = integers(required_vertices, "required_vertices");
+    if (vertices.size() > 0) require_shape(vertices, 0, "required_vertices");
+    wishes.required_vertices.assign(vertices.data(), vertices.data() + vertices.size());
+    wishes.required_edges = edge_pairs(required_edges, "required_edges");
+    wishes.attractors = to_attractors(attractors);
+    wishes.barriers = edge_pairs(barriers, "barriers");
+    wishes.region_density = region_density.values;
+    return wishes;
+}
+
+std::vector<mrc::Task> to_tasks(const py::sequence& contours, const py::object& closed, const py::object& required_vertices,
+                                const py::object& required_edges, const mrc::Wishes& shared, const py::object& scales) {
+    const std::size_t count = py::len(contours);
+    const auto closed_each = one_each(closed, !is_list(closed), count, "closed");
+    const auto vertices_each = one_each(required_vertices, !is_nested(required_vertices, 1), count, "required_vertices");
+    const auto edges_each = one_each(required_edges, !is_nested(required_edges, 2), count, "required_edges");
+    const auto scales_each = one_each(scales, !is_list(scales), count, "scales");
+    std::vector<mrc::Task> tasks;
+    for (std::size_t i = 0; i < count; ++i) {
+        const mrc::Wishes own = to_wishes(vertices_each[i], edges_each[i], py::tuple(), py::tuple(), {Doubles(0), {}});
+        mrc::Task task{listed_contour(contours[i], PyObject_IsTrue(closed_each[i].ptr()) != 0), shared, nullptr};
+        task.wishes.required_vertices = own.required_vertices;
+        task.wishes.required_edges = own.required_edges;
+        task.scales = to_scales(scales_each[i]);
+        tasks.push_back(std::move(task));
+    }
+    return tasks;
+}
+
+mrc::Progress to_progress(const py::object& progress) {
+    if (progress.is_none()) return {};
+    return [progress = progress.ptr()](double share) {
+        const py::gil_scoped_acquire acquire;
+        const py::object answer = py::reinterpret_borrow<py::function>(progress)(share);
+        return answer.is_none() || PyObject_IsTrue(answer.ptr()) != 0;
+    };
+}
+
+}  // namespace mrc_python

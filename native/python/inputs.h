@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "arrays.h"
+
+#include <mrc/optimize.h>
+
+#include <span>
+#include <vector>
+
+namespace mrc_python {
+
+/// A contour from vertex ids or points on edges, or from an earlier result.
+mrc::Contour to_contour(const py::object& vertices, bool closed, const py::object& edge_vertices,
+                        const py::object& edge_parameters);
+
+/// A region density, and the array that holds it.
+struct Density {
+    Doubles array;
+    std::span<const double> values;
+};
+Density to_density(const py::object& density);
+
+/// `region_density` must outlive the wishes.
+mrc::Wishes to_wishes(const py::object& required_vertices, const py::object& required_edges, const py::iterable& attractors,
+                      const py::object& barriers, const Density& region_density);
+
+/// Several contours; what is not `shared` is one for all or one for each.
+std::vector<mrc::Task> to_tasks(const py::sequence& contours, const py::object& closed, const py::object& required_vertices,
+                                const py::object& required_edges, const mrc::Wishes& shared, const py::object& scales);
+
+/// `progress` must outlive what is returned.
+mrc::Progress to_progress(const py::object& progress);
+
+}  // namespace mrc_python

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "optimization.h"
+
+#include <mrc/contour.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace mrc {
+namespace {
+
+constexpr const char* no_neighbour =
+    "no simple contour along mesh edges lies beside the given one, so that no band can grow from it";
+
+std::string numbered(const std::vector<int>& contours) {
+    std::string words = contours.size() == 1 ? "contour " : "contours ";
+    for (std::size_t i = 0; i < contours.size(); ++i) words += (i ? ", " : "") + std::to_string(contours[i]);
+    return words;
+}
+
+/// How far along the flow contours with the required elements get, in words.
+std::string where_it_stops(const ContourGraph& graph, const Wishes& wishes, const std::vector<int>& held_back_by) {
+    const WeightedGraph& search = graph.search;
+    std::vector<char> reached(search.node_count(), 0);
+    for (const Terminal& s : search.sources) reached[s.node] = 1;
+    const GraphPoint* farthest = nullptr;
+    for (int n = 0; n < search.node_count(); ++n) {
+        for (int a = search.first_arc[n]; a < search.first_arc[n + 1]; ++a) reached[n] |= reached[search.from[a]];
+        const int chord = search.matched ? graph.chord_of(n) : n;
+        const GraphPoint& head = graph.points[graph.chords[chord].head];
+        const bool source = search.matched && n < graph.crossing;
+        if (reached[n] && !source && (!farthest || head.level > farthest->level)) farthest = &head;
+    }
+    std::ostringstream message;
+    message << "no contour of the band has all " << wishes.required_vertices.size() + wishes.required_edges.size()
+            << " required elements: the search ";
+    if (farthest) {
+        message << "stops at vertex " << farthest->place.a;
+    } else {
+        message << "cannot even begin";
+    }
+    if (!held_back_by.empty()) message << ", with " << numbered(held_back_by) << " in the way";
+    message << ". Widen the band, raise max_turn or drop a requirement";
+    return message.str();
+}
+
+}  // namespace
+
+Optimization::Optimization(const Surface& surface, const Contour& contour, const Options& options, const Wishes& wishes,
+                           const Scales* scales)
+    : surface_(surface),
+      options_(options),
+      wishes_(wishes),
+      given_(contour),
+      stopwatch_(result_.statistics.seconds),
+      feasible_(meets(contour, wishes)) {
+    setting_ = stopwatch_.time("curvature",
+                               [&] { return std::make_unique<Setting>(surface, contour, options, wishes.attractors, scales); });
+    if (!wishes_.region_density.empty() && options_.region_weight != 0.0) {
+        enclosed_ = enclosed_change(surface_, wishes_.region_density, setting_->scales.given, given_);
+    }
+    const Measure first = measure(surface_, setting_->energy, given_, options_.refinement, enclosed_);
+    result_.scales = setting_->scales;
+    result_.contour = given_;
+    result_.ratio = result_.initial_ratio = first.ratio;
+    result_.objective = result_.initial_objective = first.objective;
+    result_.lower_bound = first.objective;
+    result_.salience = first.salience;
+}
+
+void Optimization::begin_phase(int steiner) {
+    steiner_ = steiner;
+    current_ = measure(surface_, setting_->energy, result_.contour, steiner, enclosed_);
+    result_.ratio = current_.ratio;
+    result_.objective = result_.lower_bound = current_.objective;
+    result_.gap = 0.0;
+    if (feasible_) result_.history.push_back(current_.objective);
+    moving_ = true;
+}
+
+void Optimization::cut_out() {
+    ++result_.statistics.iterations;
+    moving_ = moved_ = false;
+    patch_.reset();
+    if (has_neighbour_along_edges(surface_, result_.contour)) {
+        patch_ = stopwatch_.time("patch", [&] { return make_patch(surface_, result_.contour, options_.width); });
+    } else if (result_.status == Status::unchanged) {
+        result_.reason = no_neighbour;
+    }
+}
+
+void Optimization::grow(Partition* partition, int number) {
+    if (!patch_) return;
+    territory_ = {};
+    if (partition) {
+        territory_ = partition->territory(number, *patch_);
+        for (const Contour& own : {given_, result_.contour}) {
+            const Contour points = expressed(own, steiner_);
+            territory_.own.insert(territory_.own.end(), points.points.begin(), points.points.end());
+        }
+    }
+    band_ = stopwatch_.time("band", [&] { return grow_band(surface_, *patch_, options_, wishes_, territory_); });
+}
+
+void Optimization::search(Partition* partition, int number) {
+    if (!patch_) return;
+    if (partition) {
+        partition->close(number, *patch_, territory_);
+        result_.held_back_by = partition->held_back_by(number, *patch_, band_);
+    }
+    const Flow flow = stopwatch_.time("flow", [&] { return make_flow(*patch_, band_, options_); });
+    const std::optional<EdgeForm> region = make_region_form(flow);
+    const ContourGraph graph = stopwatch_.time("graph", [&] {
+        return make_graph(surface_, *patch_, band_, flow, setting_->energy, options_, wishes_, steiner_,
+                          region ? &*region : nullptr, territory_);
+    });
+    const RatioResult best = stopwatch_.time("ratio", [&] { return minimum_ratio(graph.search, search_options()); });
+    count(graph, best);
+    if (!feasible_ && !best.found) throw Infeasible(where_it_stops(graph, wishes_, result_.held_back_by));
+    const double before = feasible_ ? result_.objective : std::numeric_limits<double>::infinity();
+    if (best.found) accept(trace_contour(graph, *patch_, flow, best.nodes), region);
+    searched_ |= best.found;
+    result_.lower_bound = best.found ? std::min(best.lower_bound, before) : before;
+    result_.gap = std::max(0.0, result_.objective - result_.lower_bound);
+    result_.history.push_back(result_.objective);
+    explain(best);
+    moved_ = below(result_.objective, before);
+    moving_ = moved_ && !featureless();
+}
+
+Result Optimization::finish() {
+    if (!feasible_)
+        throw Infeasible("the given contour lacks required elements, and " +
+                         (result_.reason.empty() ? "no iteration was asked for" : result_.reason));
+    if (searched_ && featureless()) explain_featureless();
+    // What was won along mesh edges may be lost with the Steiner points of a last phase that found nothing.
+    const bool lost = result_.status == Status::improved && below(result_.initial_objective, result_.objective);
+    if (result_.status == Status::improved && (lost || (searched_ && featureless()))) keep_given();
+    if (lost) result_.reason = "no better contour was found across faces";
+    return result_;
+}
+
+Result Optimization::cancelled() const {
+    Result result;
+    result.contour = given_;
+    result.status = Status::cancelled;
+    result.reason = "cancelled";
+    result.ratio = result.initial_ratio = result_.initial_ratio;
+    result.objective = result.initial_objective = result.lower_bound = result_.initial_objective;
+    result.history = {result_.initial_objective};
+    result.scales = result_.scales;
+    return result;
+}
+
+/// True where objective a is below b by more than rounding.
+bool Optimization::below(double a, double b) const {
+    const double unit = options_.length_bias == 0.0 ? setting_->energy.unit() : 1.0;
+    return std::isinf(b) ? a < b : a < b - 1e-12 * std::max({unit, std::abs(a), std::abs(b)});
+}
+
+/// The search begins at what the current contour suggests.
+RatioOptions Optimization::search_options() const {
+    RatioOptions options;
+    options.objective = setting_->energy.objective();
+    options.guess = Terminal{-1, current_.numerator, current_.length};
+    return options;
+}
+
+std::optional<EdgeForm> Optimization::make_region_form(const Flow& flow) const {
+    if (wishes_.region_density.empty() || options_.region_weight == 0.0) return std::nullopt;
+    return region_form(surface_, *patch_, band_, flow, wishes_.region_density, enclosed_);
+}
+
+void Optimization::accept(const Contour& found, const std::optional<EdgeForm>& region) {
+    const double enclosed = region ? region->along(found) : 0.0;
+    const Measure measured = measure(surface_, setting_->energy, found, steiner_, enclosed);
+    result_.salience = measured.salience;
+    if (feasible_ && !below(measured.objective, result_.objective)) return;
+    result_.contour = found;
+    result_.ratio = measured.ratio;
+    result_.objective = measured.objective;
+    if (result_.status != Status::constrained) result_.status = feasible_ ? Status::improved : Status::constrained;
+    feasible_ = true;
+    current_ = measured;
+    enclosed_ = enclosed;
+}
+
+/// Nothing concave was found to go to (min_salience).
+bool Optimization::featureless() const { return options_.min_salience && result_.salience < *options_.min_salience; }
+
+void Optimization::explain_featureless() {
+    std::ostringstream reason;
+    reason << "there is nothing concave to find here: the best contour's salience is " << result_.salience << ", below "
+           << *options_.min_salience;
+    result_.reason = reason.str();
+}
+
+/// Puts the given contour back; the certificate stays that of the best found.
+void Optimization::keep_given() {
+    result_.contour = given_;
+    result_.status = Status::unchanged;
+    result_.ratio = result_.initial_ratio;
+    result_.objective = result_.initial_objective;
+}
+
+void Optimization::explain(const RatioResult& best) {
+    result_.reason.clear();
+    if (result_.status != Status::unchanged) return;
+    if (band_.polygons.empty()) {
+        result_.reason = "nothing can grow around the contour: its faces touch it all round";
+    } else if (!best.found) {
+        result_.reason = "no contour in the band runs along with the flow";
+    } else {
+        result_.reason = "the given contour is already the best in its band";
+    }
+    if (!result_.held_back_by.empty()) result_.reason += ", and " + numbered(result_.held_back_by) + " kept the band back";
+}
+
+void Optimization::count(const ContourGraph& graph, const RatioResult& best) {
+    Statistics& s = result_.statistics;
+    s.faces = static_cast<int>(band_.polygons.size());
+    s.cut = graph.crossing;
+    s.nodes = static_cast<int>(graph.chords.size());
+    s.arcs = graph.search.arc_count();
+    s.linear_steps = best.steps;
+    s.passes = best.passes;
+}
+
+}  // namespace mrc

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "partition.h"
+#include "setting.h"
+
+#include <mrc/optimize.h>
+#include <mrc/ratio.h>
+#include <mrc/territory.h>
+
+#include <chrono>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace mrc {
+
+/// Adds up the seconds of stages by name.
+class Stopwatch {
+  public:
+    explicit Stopwatch(std::map<std::string, double>& seconds) : seconds_(seconds) {}
+
+    template <class Stage>
+    auto time(const char* name, Stage&& stage) {
+        const auto start = std::chrono::steady_clock::now();
+        auto result = stage();
+        seconds_[name] += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        return result;
+    }
+
+  private:
+    std::map<std::string, double>& seconds_;
+};
+
+/// One contour on its way, in the steps that several contours of a mesh take together:
+/// for each phase begin_phase, then for each iteration cut_out, grow and search; last finish.
+class Optimization {
+  public:
+    /// `contour` must be checked; surface, options and wishes must outlive the object.
+    Optimization(const Surface& surface, const Contour& contour, const Options& options, const Wishes& wishes,
+                 const Scales* scales);
+
+    /// Iterations with one k, measured with its Steiner points: a segment of the history.
+    void begin_phase(int steiner);
+    /// Makes the patch of an iteration.
+    void cut_out();
+    void grow(Partition* partition, int number);
+    /// Finds the best contour of the band and takes it where it is better than the one so far.
+    void search(Partition* partition, int number);
+    Result finish();
+    /// A cancelled call changes nothing.
+    Result cancelled() const;
+
+    /// True where another iteration of this phase could find something, going by this contour alone.
+    bool moving() const { return moving_; }
+    /// The last iteration moved it.
+    bool moved() const { return moved_; }
+    /// Where it settled, it sets off again once a neighbour that kept it back has moved.
+    void wake() { moving_ = !featureless(); }
+    const Contour& given() const { return given_; }
+    const Contour& current() const { return result_.contour; }
+    const std::vector<int>& held_back_by() const { return result_.held_back_by; }
+    Patch* patch() { return patch_ ? &*patch_ : nullptr; }
+    const Band& band() const { return band_; }
+
+  private:
+    const Surface& surface_;
+    const Options& options_;
+    const Wishes& wishes_;
+    const Contour given_;
+    Result result_;
+    Stopwatch stopwatch_;
+    bool feasible_;  // the contour reached so far has all required elements
+    std::unique_ptr<Setting> setting_;
+    Measure current_;  // of the contour reached so far
+    int steiner_ = 0;  // k of the iterations under way
+    bool moving_ = false, moved_ = false;
+    bool searched_ = false;       // some iteration found a contour
+    double enclosed_ = 0.0;       // the change of the region term's integral so far
+    std::optional<Patch> patch_;  // of the iteration under way
+    Band band_;
+    Territory territory_;
+
+    bool below(double a, double b) const;
+    void accept(const Contour& found, const std::optional<EdgeForm>& region);
+    void conclude(const ContourGraph& graph, const RatioResult& best, double before);
+    RatioOptions search_options() const;
+    std::optional<EdgeForm> make_region_form(const Flow& flow) const;
+    bool featureless() const;
+    void explain(const RatioResult& best);
+    void explain_featureless();
+    void keep_given();
+    void count(const ContourGraph& graph, const RatioResult& best);
+};
+
+}  // namespace mrc

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <thread>
+#include <vector>
+
+namespace mrc {
+
+/// Calls task(i) for every i from 0 up to count, on `threads` threads; 0: as many as the machine has. All tasks are done when it
+/// returns; of what they throw, the exception of the lowest i is thrown here.
+template <class Task>
+void parallel_for(int count, int threads, Task&& task) {
+    const int wanted = threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency());
+    const int workers = std::min(std::max(wanted, 1), count);
+    std::vector<std::exception_ptr> thrown(count);
+    std::atomic<int> next = 0;
+    const auto work = [&] {
+        for (int i = next++; i < count; i = next++) {
+            try {
+                task(i);
+            } catch (...) {
+                thrown[i] = std::current_exception();
+            }
+        }
+    };
+    {
+        std::vector<std::jthread> others;
+        for (int w = 1; w < workers; ++w) others.emplace_back(work);
+        work();
+    }
+    for (const std::exception_ptr& exception : thrown) {
+        if (exception) std::rethrow_exception(exception);
+    }
+}
+
+}  // namespace mrc

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "partition.h"
+
+#include "guide.h"
+
+#include <algorithm>
+#include <set>
+
+namespace mrc {
+namespace {
+
+/// The local vertices of a polygon, without repetition.
+std::vector<int> polygon_vertices(const Patch& patch, int polygon) {
+    std::vector<int> vertices;
+    for (int f = patch.first_face[polygon]; f < patch.first_face[polygon + 1]; ++f) {
+        for (const auto v : patch.mesh.fv_range(PatchMesh::FaceHandle(f))) vertices.push_back(v.idx());
+    }
+    std::ranges::sort(vertices);
+    vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
+    return vertices;
+}
+
+}  // namespace
+
+void Partition::add(Owners& owners, int element, int contour) {
+    std::vector<int>& list = owners[element];
+    if (std::ranges::find(list, contour) == list.end()) list.push_back(contour);
+}
+
+std::span<const int> Partition::owners_of(const Owners& owners, int element) {
+    const auto found = owners.find(element);
+    return found == owners.end() ? std::span<const int>() : std::span<const int>(found->second);
+}
+
+bool Partition::has_other(std::span<const int> owners, int contour) {
+    return std::ranges::any_of(owners, [&](int other) { return other != contour; });
+}
+
+int Partition::edge_of(const Patch& patch, int e) const {
+    return surface_.edge(std::max(patch.halfedge[2 * e], patch.halfedge[2 * e + 1]));
+}
+
+void Partition::occupy(int contour, const Contour& where) {
+    const std::size_t count = where.points.size();
+    for (const SurfacePoint& p : where.points) {
+        if (p.is_vertex()) {
+            add(vertices_, p.a, contour);
+            continue;
+        }
+        for (const int h : surface_.outgoing(p.a)) {
+            if (surface_.to(h) == p.b) add(edges_, surface_.edge(h), contour);
+        }
+        for (const int h : surface_.outgoing(p.b)) {
+            if (surface_.to(h) == p.a) add(edges_, surface_.edge(h), contour);
+        }
+    }
+    for (std::size_t i = 0; i + (where.closed ? 0 : 1) < count; ++i) {
+        const SurfacePoint &p = where.points[i], &q = where.points[(i + 1) % count];
+        const SharedEdge edge(p, q);
+        const int halfedge =
+            edge.a < 0 ? -1 : std::max(surface_.find_halfedge(edge.a, edge.b), surface_.find_halfedge(edge.b, edge.a));
+        if (halfedge >= 0) {
+            add(edges_, surface_.edge(halfedge), contour);
+        } else {
+            add(faces_, surface_.triangle_face(triangle_of_segment(surface_, p, q)), contour);
+        }
+    }
+}
+
+void Partition::claim(int contour, const Patch& patch) {
+    for (int p = 0; p < patch.polygon_count(); ++p) {
+        double distance = 0.0;
+        for (const int v : polygon_vertices(patch, p)) distance += patch.distance[v];
+        claims_[patch.polygon_face[p]].emplace_back(contour, distance);
+    }
+}
+
+/// The contours that a face belongs to, or would without the ties between them, where it is not this one's.
+std::vector<int> Partition::refusing(int contour, int face) const {
+    std::vector<int> others;
+    const auto crossing = owners_of(faces_, face);
+    if (!crossing.empty()) {
+        std::ranges::copy_if(crossing, std::back_inserter(others), [&](int other) { return other != contour; });
+        return others;
+    }
+    const auto& claims = claims_.at(face);
+    const double own = std::ranges::find(claims, contour, &std::pair<int, double>::first)->second;
+    for (const auto& [other, distance] : claims) {
+        if (other != contour && distance <= own + 1e-9 * (own + distance)) others.push_back(other);
+    }
+    return others;
+}
+
+Territory Partition::territory(int contour, const Patch& patch) const {
+    Territory territory;
+    for (const int face : patch.polygon_face) territory.refused.push_back(!refusing(contour, face).empty());
+    for (int e = 0; e < static_cast<int>(patch.mesh.n_edges()); ++e) {
+        territory.wall.push_back(has_other(owners_of(edges_, edge_of(patch, e)), contour));
+    }
+    return territory;
+}
+
+void Partition::enclose(int contour, const Patch& patch, const Band& band) {
+    for (std::size_t v = 0; v < patch.vertex.size(); ++v) {
+        if (band.side[v] != Side::outside) add(band_vertices_, patch.vertex[v], contour);
+    }
+    for (int e = 0; e < static_cast<int>(patch.mesh.n_edges()); ++e) {
+        if (band.edge[e]) add(band_edges_, edge_of(patch, e), contour);
+    }
+}
+
+void Partition::close(int contour, const Patch& patch, Territory& territory) const {
+    for (const int v : patch.vertex) {
+        territory.closed_vertex.push_back(has_other(owners_of(vertices_, v), contour) ||
+                                          has_other(owners_of(band_vertices_, v), contour));
+    }
+    for (int e = 0; e < static_cast<int>(patch.mesh.n_edges()); ++e) {
+        const int edge = edge_of(patch, e);
+        territory.closed_edge.push_back(has_other(owners_of(edges_, edge), contour) ||
+                                        has_other(owners_of(band_edges_, edge), contour));
+    }
+}
+
+std::vector<int> Partition::held_back_by(int contour, const Patch& patch, const Band& band) const {
+    std::set<int> others;
+    for (const int polygon : band.refused) {
+        for (const int other : refusing(contour, patch.polygon_face[polygon])) others.insert(other);
+    }
+    for (std::size_t v = 0; v < patch.vertex.size(); ++v) {
+        if (band.side[v] == Side::outside) continue;
+        const auto occupied = owners_of(vertices_, patch.vertex[v]);
+        if (std::ranges::find(occupied, contour) != occupied.end()) continue;  // its own, and open to it
+        others.insert(occupied.begin(), occupied.end());
+        const auto enclosed = owners_of(band_vertices_, patch.vertex[v]);
+        others.insert(enclosed.begin(), enclosed.end());
+    }
+    others.erase(contour);
+    return {others.begin(), others.end()};
+}
+
+bool Partition::shares(int contour, int vertex) const { return has_other(owners_of(vertices_, vertex), contour); }
+
+}  // namespace mrc

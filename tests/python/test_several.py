@@ -1,0 +1,324 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Several contours of one mesh (1.4): they keep apart, and what one finds depends on no order and on no thread."""
+
+from itertools import combinations
+
+import meshes
+import mrcontour as mrc
+import numpy as np
+import pytest
+from conftest import surface_of
+from contour_checks import crossings, meetings
+from contour_energy import points_of, vertex
+
+FLOWS = ("harmonic", "gates", "arc_length")
+
+
+def body(rng, kind):
+    """A mesh, and the rows and columns of its grid."""
+    rows, columns = int(rng.integers(24, 34)), int(rng.integers(10, 16))
+    if kind == "torus":
+        split = rng.choice([0.0, 0.5, 1.0])
+        return meshes.torus(columns, rows, rng=rng, split_share=split, noise=0.05, grooves=0.3), columns, rows
+    radius = 1 + 0.3 * np.sin(0.9 * np.arange(rows)) + rng.uniform(-0.15, 0.15, rows)
+    split, noise = rng.choice([0.0, 0.5, 1.0]), rng.choice([0.0, 0.05])
+    return meshes.tube(radius, columns, step=0.4, rng=rng, split_share=split, noise=noise), rows, columns
+
+
+def loops_in_a_row(rng, kind):
+    """Loops round a tube or along a torus, at random distances: from side by side to out of each other's reach."""
+    mesh, rows, columns = body(rng, kind)
+    row, contours = int(rng.integers(2, 5)), []
+    while row + 2 < rows - 2:
+        highest = row + int(rng.integers(0, 3))
+        contours.append(meshes.zigzag_contour(rng, columns, row, min(highest, rows - 3), step_chance=0.4))
+        row = highest + int(rng.choice([1, 1, 2, 3, 8, 12]))
+    return mesh, contours
+
+
+def options_for(rng, seed, **more):
+    options = {
+        "width": int(rng.integers(1, 6)),
+        "flow": FLOWS[seed % 3],
+        "refinement": (0, 0, 1, 2)[seed % 4],
+        "iterations": int(rng.integers(1, 4)),
+        "regular_iterations": int(rng.integers(0, 2)),
+    }
+    if rng.random() < 0.3:
+        options |= {"length_bias": 0.5, "anchor": 0.2}
+    if rng.random() < 0.3:
+        options["min_salience"] = float(rng.uniform(0.0, 1.5))
+    return mrc.Options(**options | more)
+
+
+def check_apart(mesh, results, given):
+    """No two results meet but in points that the given ones shared; each is simple and no worse than given."""
+    for result in results:
+        assert result.objective <= result.initial_objective
+        assert crossings(mesh, points_of(result), result.closed) == []
+    for (one, two), pair in zip(combinations(results, 2), combinations(given, 2), strict=True):
+        touched = {vertex(v) for v in set(pair[0].tolist()) & set(pair[1].tolist())}
+        assert set(meetings(mesh, points_of(one), points_of(two), (one.closed, two.closed))) <= touched
+
+
+def same(one, two):
+    """Equal to the last bit."""
+    return (
+        one.status == two.status
+        and one.edge_vertices.tobytes() == two.edge_vertices.tobytes()
+        and one.edge_parameters.tobytes() == two.edge_parameters.tobytes()
+        and [one.objective, one.ratio, one.lower_bound, one.history]
+        == [two.objective, two.ratio, two.lower_bound, two.history]
+    )
+
+
+def cases(count):
+    return pytest.mark.parametrize(
+        "seed", [pytest.param(seed, marks=[pytest.mark.slow] if seed >= 6 else []) for seed in range(count)]
+    )
+
+
+@pytest.mark.parametrize("kind", ["tube", "torus"])
+@cases(24)
+def test_loops_keep_apart_in_any_order_on_any_number_of_threads(kind, seed):
+    rng = np.random.default_rng([seed, len(kind)])
+    mesh, contours = loops_in_a_row(rng, kind)
+    surface, options = surface_of(mesh), options_for(rng, seed)
+    results = mrc.optimize_all(surface, contours, options=options)
+    check_apart(mesh, results, contours)
+
+    order = rng.permutation(len(contours))
+    for threads in (1, 3):
+        options = mrc.Options(**{name: getattr(options, name) for name in OPTION_NAMES} | {"threads": threads})
+        again = mrc.optimize_all(surface, [contours[i] for i in order], options=options)
+        for place, i in enumerate(order):
+            assert same(again[place], results[i])
+            assert sorted(order[j] for j in again[place].held_back_by) == list(results[i].held_back_by)
+
+
+OPTION_NAMES = [name for name in dir(mrc.Options) if not name.startswith("_")]
+
+
+def test_who_is_not_held_back_finds_what_it_finds_alone():
+    free = held = 0
+    for seed in range(24):
+        rng = np.random.default_rng(seed)
+        mesh, contours = loops_in_a_row(rng, "tube")
+        surface, options = surface_of(mesh), options_for(rng, seed, iterations=1, regular_iterations=0)
+        results = mrc.optimize_all(surface, contours, options=options)
+        for contour, result in zip(contours, results, strict=True):
+            assert result.held_back_by or same(result, mrc.optimize(surface, contour, options=options))
+            free += not result.held_back_by
+            held += bool(result.held_back_by)
+    assert min(free, held) >= 10
+
+
+def test_alone_they_would_cross():
+    """Otherwise nothing above would be worth much."""
+    crossing = 0
+    for seed in range(12):
+        rng = np.random.default_rng([seed, 4])
+        mesh, contours = loops_in_a_row(rng, "tube")
+        surface, options = surface_of(mesh), mrc.Options(width=5, iterations=2)
+        alone = [points_of(mrc.optimize(surface, contour, options=options)) for contour in contours]
+        crossing += any(meetings(mesh, one, two) for one, two in combinations(alone, 2))
+        check_apart(mesh, mrc.optimize_all(surface, contours, options=options), contours)
+    assert crossing >= 6
+
+
+@pytest.mark.parametrize("k", [0, 1])
+def test_one_contour_of_a_list_is_like_one_alone(realistic, k):
+    _, mesh, contour = realistic
+    surface, options = surface_of(mesh), mrc.Options(iterations=2, refinement=k)
+    (listed,) = mrc.optimize_all(surface, [contour], options=options)
+    assert same(listed, mrc.optimize(surface, contour, options=options))
+    assert listed.held_back_by == ()
+
+
+def two_grooves(depths=(0.3, 0.2)):
+    """A tube with grooves at rows 10 and 20."""
+    rows, columns = 31, 24
+    row = np.arange(rows)
+    radius = 1 - sum(d * np.exp(-(((row - at) / 1.2) ** 2)) for d, at in zip(depths, (10, 20), strict=True))
+    mesh = meshes.tube(radius, columns, step=0.2)
+    return mesh, [r * columns + np.arange(columns, dtype=np.int32) for r in range(rows)]
+
+
+def test_neighbours_that_would_change_places_stay_in_their_order():
+    """With a required vertex in each other's groove alone, both would pass the other; together neither does."""
+    mesh, ring = two_grooves()
+    surface, options = surface_of(mesh), mrc.Options(width=12)
+    contours, wanted = [ring[13], ring[17]], [[int(ring[20][0])], [int(ring[10][0])]]
+    alone = [
+        mrc.optimize(surface, contour, options=options, required_vertices=vertices)
+        for contour, vertices in zip(contours, wanted, strict=True)
+    ]
+    assert [result.status for result in alone] == ["constrained", "constrained"]
+    assert alone[0].positions[:, 2].mean() > alone[1].positions[:, 2].mean()
+    for order in ([0, 1], [1, 0]):
+        listed = [contours[i] for i in order], [wanted[i] for i in order]
+        with pytest.raises(ValueError, match="^contour 0: required vertex .* other contours"):
+            mrc.optimize_all(surface, listed[0], options=options, required_vertices=listed[1])
+    together = mrc.optimize_all(surface, contours, options=options)
+    heights = [mesh.positions[result.vertices, 2] for result in together]
+    assert heights[0].max() < heights[1].min()
+    assert together[0].held_back_by == (1,)
+    assert together[1].held_back_by == (0,)
+
+
+def test_both_reach_the_same_groove_alone_and_one_together():
+    """The nearer one gets it; the other stops beside it, and says who is there."""
+    mesh, ring = two_grooves((0.0, 0.3))
+    surface, options = surface_of(mesh), mrc.Options(width=9, iterations=3)
+    alone = [mrc.optimize(surface, ring[r], options=options) for r in (13, 18)]
+    assert all(abs(result.positions[:, 2] / 0.2 - 20).max() < 1.5 for result in alone)
+    far, near = mrc.optimize_all(surface, [ring[13], ring[18]], options=options)
+    assert abs(near.positions[:, 2] / 0.2 - 20).max() < 1.5
+    assert far.positions[:, 2].max() < near.positions[:, 2].min()
+    assert far.held_back_by == (1,)
+
+
+# ---- open chains
+
+
+def network(rng):
+    """Chains of a grid on a tube that meet in junctions: along four meridians, round three rings."""
+    rows, columns = 25, 16
+    radius = 1 + 0.3 * np.sin(0.7 * np.arange(rows)) + rng.uniform(-0.1, 0.1, rows)
+    mesh = meshes.tube(radius, columns, step=0.4, rng=rng, split_share=rng.choice([0.0, 1.0]), noise=0.03)
+    grid = np.arange(rows * columns, dtype=np.int32).reshape(rows, columns)
+    levels, meridians = (4, 12, 20), (0, 4, 8, 12)
+    chains = [grid[low : high + 1, c] for low, high in zip(levels, levels[1:], strict=False) for c in meridians]
+    chains += [grid[r, np.arange(c, c + 5) % columns] for r in levels for c in meridians]
+    return mesh, [np.ascontiguousarray(chain) for chain in chains]
+
+
+@pytest.mark.parametrize("k", [0, 1])
+@cases(9)
+def test_a_network_keeps_its_junctions(k, seed):
+    rng = np.random.default_rng([seed, k])
+    mesh, chains = network(rng)
+    ends = ("vertices", "edges", "border")[seed % 3]
+    options = mrc.Options(width=3, flow=FLOWS[seed // 3], refinement=k, ends=ends, iterations=2)
+    results = mrc.optimize_all(surface_of(mesh), chains, closed=False, options=options)
+    check_apart(mesh, results, chains)
+    for chain, result in zip(chains, results, strict=True):
+        points = points_of(result)
+        assert (points[0], points[-1]) == (vertex(chain[0]), vertex(chain[-1]))
+    assert sum(result.status == "improved" for result in results) >= 1
+
+
+def test_an_end_on_the_border_slides_unless_it_is_shared():
+    rows, columns = 9, 16
+    rng = np.random.default_rng(5)
+    mesh = meshes.tube(1 + 0.3 * np.cos(np.arange(rows)), columns, step=0.4, rng=rng, split_share=1.0, noise=0.05)
+    grid = np.arange(rows * columns, dtype=np.int32).reshape(rows, columns)
+    edges = {tuple(edge) for edge in mesh.real_edges().tolist()}
+    # A meridian, and a chain that leaves its first vertex on the border by a diagonal.
+    column = next(c for c in range(4, 12) if (grid[0, c], grid[1, c + 1]) in edges)
+    meridian, other = np.ascontiguousarray(grid[:, column]), np.r_[grid[0, column], grid[1:4, column + 1]]
+    surface, options = surface_of(mesh), mrc.Options(width=3, ends="border", max_turn=2.5)
+    alone = mrc.optimize(surface, meridian, closed=False, options=options)
+    held, _ = mrc.optimize_all(surface, [meridian, other.astype(np.int32)], closed=False, options=options)
+    assert alone.vertices[0] != meridian[0]
+    assert held.vertices[0] == meridian[0]
+
+
+# ---- what belongs to each of them
+
+
+def test_one_for_all_or_one_for_each():
+    mesh, ring = two_grooves()
+    surface, options = surface_of(mesh), mrc.Options(width=2)
+    chain = ring[24][:9].copy()
+    contours = [ring[6], chain, ring[14]]
+    closed = [True, False, True]
+    vertices, edges = [[int(ring[7][3])], [], []], [[], [], [(int(ring[14][5]), int(ring[14][6]))]]
+    both = mrc.optimize_all(
+        surface, contours, closed=closed, options=options, required_vertices=vertices, required_edges=edges
+    )
+    assert [result.closed for result in both] == closed
+    assert both[0].status == "constrained"
+    assert ring[7][3] in both[0].vertices
+    places = [both[2].vertices.tolist().index(v) for v in edges[2][0]]
+    assert places[1] == (places[0] + 1) % len(both[2].vertices)
+    scales = [result.scales for result in both]
+    again = mrc.optimize_all(surface, contours, closed=closed, options=options, scales=scales)
+    assert [result.scales.L0 for result in again] == [one.L0 for one in scales]
+    shared = mrc.optimize_all(surface, contours, closed=closed, options=options, scales=scales[0])
+    assert {result.scales.L0 for result in shared} == {scales[0].L0}
+
+
+def test_contours_may_be_results_and_points_on_edges():
+    mesh, ring = two_grooves()
+    surface, options = surface_of(mesh), mrc.Options(width=2, refinement=1)
+    first = mrc.optimize_all(surface, [ring[7], ring[17]], options=options)
+    points = [(result.edge_vertices, result.edge_parameters) for result in first]
+    for contours in (first, points):
+        again = mrc.optimize_all(surface, contours, options=options, scales=[result.scales for result in first])
+        for one, two in zip(again, first, strict=True):
+            assert one.initial_objective == pytest.approx(two.objective, rel=1e-12)
+            assert one.objective <= one.initial_objective
+
+
+def test_no_contours():
+    assert mrc.optimize_all(surface_of(two_grooves()[0]), []) == []
+
+
+def test_given_contours_may_touch_and_stay_where_they_do():
+    mesh, ring = two_grooves()
+    # Each takes a step to the ring between them, and back again.
+    first = np.r_[ring[8][:6], ring[9][5:8], ring[8][7:]].astype(np.int32)
+    second = np.r_[ring[10][:6], ring[9][5:8], ring[10][7:]].astype(np.int32)
+    results = mrc.optimize_all(surface_of(mesh), [first, second], options=mrc.Options(width=4, iterations=2))
+    check_apart(mesh, results, [first, second])
+
+
+def test_progress_is_called_and_cancels_all():
+    mesh, ring = two_grooves()
+    surface, options = surface_of(mesh), mrc.Options(iterations=3)
+    shares = []
+    mrc.optimize_all(surface, [ring[7], ring[17]], options=options, progress=shares.append)
+    assert shares == sorted(shares)
+    assert (shares[0], shares[-1]) == (0.0, 1.0)
+    cancelled = mrc.optimize_all(surface, [ring[7], ring[17]], options=options, progress=lambda _: False)
+    assert [result.status for result in cancelled] == ["cancelled", "cancelled"]
+    assert [result.vertices.tolist() for result in cancelled] == [ring[7].tolist(), ring[17].tolist()]
+    with pytest.raises(ZeroDivisionError):
+        mrc.optimize_all(surface, [ring[7]], progress=lambda _: 1 // 0)
+
+
+# ---- bad input
+
+
+def bad(**change):
+    mesh, ring = two_grooves()
+    arguments = {"contours": [ring[7], ring[17]], "options": mrc.Options(width=2)} | change
+    return mrc.optimize_all(surface_of(mesh), **arguments)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    {
+        "no edge": ({"contours": [24 * 7 + np.arange(24), np.array([0, 5, 9])]}, "^contour 1: .*0 and 5"),
+        "two bad ones": ({"contours": [np.array([0, 7, 9]), np.array([0, 5, 9])]}, "^contour 0: .*0 and 7"),
+        "out of range": ({"contours": [np.array([0, 1, 9999])]}, "9999"),
+        "too few closed": ({"closed": [True]}, "closed has 1 entries for 2"),
+        "too many scales": ({"scales": [None, None, None]}, "scales has 3 entries for 2"),
+        "too few required": ({"required_vertices": [[3]]}, "required_vertices has 1 entries for 2"),
+        "too few edges": ({"required_edges": [[(3, 4)], [], []]}, "required_edges has 3 entries for 2"),
+        "required out of reach": ({"required_vertices": [[], [3]]}, "^contour 1: required vertex 3 "),
+        "density": ({"region_density": np.ones(3)}, "^contour 0: .*3 entries"),
+    }.values(),
+)
+def test_errors_name_the_contour(change, message):
+    with pytest.raises(ValueError, match=message):
+        bad(**change)
+
+
+def test_wrong_types():
+    for change in ({"contours": [None]}, {"contours": 3}, {"scales": [3, 4]}, {"required_vertices": [["a"], []]}):
+        with pytest.raises((TypeError, ValueError)):
+            bad(**change)
+    with pytest.raises(ValueError, match="threads"):
+        mrc.Options(threads=-1)
