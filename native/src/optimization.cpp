@@ -52,6 +52,7 @@ Optimization::Optimization(const Surface& surface, const Contour& contour, const
                            const Scales* scales)
     : surface_(surface),
       options_(options),
+      phase_options_(options),
       wishes_(wishes),
       given_(contour),
       stopwatch_(result_.statistics.seconds),
@@ -72,6 +73,8 @@ Optimization::Optimization(const Surface& surface, const Contour& contour, const
 
 void Optimization::begin_phase(int steiner) {
     steiner_ = steiner;
+    // On the whole surface, what is refined works in a band around the regular result.
+    if (steiner > 0 && !options_.width) phase_options_.width = Options().width;
     current_ = measure(surface_, setting_->energy, result_.contour, steiner, enclosed_);
     result_.ratio = current_.ratio;
     result_.objective = result_.lower_bound = current_.objective;
@@ -85,7 +88,7 @@ void Optimization::cut_out() {
     moving_ = moved_ = false;
     patch_.reset();
     if (has_neighbour_along_edges(surface_, result_.contour)) {
-        patch_ = stopwatch_.time("patch", [&] { return make_patch(surface_, result_.contour, options_.width); });
+        patch_ = stopwatch_.time("patch", [&] { return make_patch(surface_, result_.contour, phase_options_.width); });
     } else if (result_.status == Status::unchanged) {
         result_.reason = no_neighbour;
     }
@@ -101,7 +104,7 @@ void Optimization::grow(Partition* partition, int number) {
             territory_.own.insert(territory_.own.end(), points.points.begin(), points.points.end());
         }
     }
-    band_ = stopwatch_.time("band", [&] { return grow_band(surface_, *patch_, options_, wishes_, territory_); });
+    band_ = stopwatch_.time("band", [&] { return grow_band(surface_, *patch_, phase_options_, wishes_, territory_); });
 }
 
 void Optimization::search(Partition* partition, int number) {

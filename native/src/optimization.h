@@ -67,6 +67,7 @@ class Optimization {
   private:
     const Surface& surface_;
     const Options& options_;
+    Options phase_options_;  // with the width of the phase under way
     const Wishes& wishes_;
     const Contour given_;
     Result result_;

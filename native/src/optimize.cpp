@@ -42,7 +42,11 @@ double whole_mean_edge_length(const Surface& surface) {
 class Company {
   public:
     Company(const Surface& surface, std::span<const Task> tasks, const Options& options, const Progress& progress)
-        : surface_(surface), options_(options), progress_(progress), contours_(tasks.size()) {
+        : surface_(surface),
+          options_(options),
+          progress_(progress),
+          regular_iterations_(whole_and_refined(options) ? std::max(1, options.regular_iterations) : options.regular_iterations),
+          contours_(tasks.size()) {
         for_each([&](int i) {
             const Task& task = tasks[i];
             const Contour checked = checked_input(surface, task.contour, options, task.wishes, task.scales);
@@ -52,7 +56,7 @@ class Company {
     }
 
     std::vector<Result> run() {
-        if (options_.regular_iterations > 0 && !run_phase(options_.regular_iterations, 0)) return cancelled();
+        if (regular_iterations_ > 0 && !run_phase(regular_iterations_, 0)) return cancelled();
         if (!run_phase(options_.iterations, options_.refinement)) return cancelled();
         std::vector<Result> results(contours_.size());
         for_each([&](int i) { results[i] = contours_[i]->finish(); });
@@ -64,9 +68,12 @@ class Company {
     const Surface& surface_;
     const Options& options_;
     const Progress& progress_;
+    const int regular_iterations_;
     std::vector<std::unique_ptr<Optimization>> contours_;
     int iterations_ = 0;  // begun so far
 
+    /// A refined search needs the regular result of the whole surface to begin from.
+    static bool whole_and_refined(const Options& options) { return !options.width && options.refinement > 0; }
     int count() const { return static_cast<int>(contours_.size()); }
     bool report(double share) const { return !progress_ || progress_(share); }
 
@@ -88,7 +95,7 @@ class Company {
     bool run_phase(int iterations, int steiner) {
         for_each([&](int i) { contours_[i]->begin_phase(steiner); });
         for (int i = 0; i < iterations; ++i) {
-            if (!report(static_cast<double>(iterations_++) / (options_.regular_iterations + options_.iterations))) return false;
+            if (!report(static_cast<double>(iterations_++) / (regular_iterations_ + options_.iterations))) return false;
             if (!iterate()) break;
         }
         return true;

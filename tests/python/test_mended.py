@@ -144,3 +144,29 @@ def test_a_phase_across_faces_never_ends_above_the_given_contour():
 def test_any_false_answer_cancels(answer):
     assert mrc.optimize(surface_of(tube()), ring(3), progress=lambda share: answer).status == "cancelled"
     assert mrc.optimize(surface_of(tube()), ring(3), progress=lambda share: None).status != "cancelled"
+
+
+def test_a_refined_contour_across_barriers_at_a_vertex_is_refused():
+    mesh, here = tube(), ring(2)
+    after = np.roll(here, -1)
+    # Every vertex, then the middle of the edge behind it.
+    ends = np.stack([here, here, here, after], axis=1).reshape(-1, 2)
+    points = {"edge_vertices": ends, "edge_parameters": [0.0, 0.5] * 8}
+    surface, options = surface_of(mesh), mrc.Options(refinement=1)
+    for barriers in ([(19, 11)], [(19, 27)], [(19, 11), (20, 28)], [(19, 18), (19, 27)]):
+        assert mrc.optimize(surface, **points, options=options, barriers=barriers).gap >= 0
+    with pytest.raises(ValueError, match="barrier at vertex 19"):
+        mrc.optimize(surface, **points, options=options, barriers=[(19, 11), (19, 27)])
+
+
+@pytest.mark.parametrize("k", [1, 2])
+def test_whole_surface_refined_works_round_the_regular_result(k):
+    """Not on the whole surface, whose refined graph would be large: first along edges on all of it, then in a band."""
+    rows = np.arange(30)
+    mesh = meshes.tube(1 - 0.3 * np.exp(-((rows - 22.3) ** 2)), 16, step=0.3)
+    options = {"width": None, "refinement": k}
+    result = mrc.optimize(surface_of(mesh), ring(4, 16), options=mrc.Options(**options))
+    assert result.status == "improved"
+    assert abs(result.positions[:, 2] / 0.3 - 22.3).max() < 1
+    assert result.statistics["iterations"] == 2
+    assert result.statistics["faces"] == 2 * 4 * 16

@@ -16,7 +16,8 @@ enum class Denominator { length, arcs };
 /// All settings of the method; each stage reads its own. Sections are those of Clements 2006.
 struct Options {
     // band, 4.2.1
-    std::optional<int> width = 4;  ///< rings of faces to each side, at least 1; none: until topology stops the band
+    std::optional<int> width =
+        4;  ///< rings of faces to each side, at least 1; none: until topology stops the band (if refined: first)
     /// Besides, from the third ring on, only polygons all of whose vertices lie within this distance of the iteration's start, in
     /// average radii of the contour's connected component.
     std::optional<double> band_distance;
