@@ -3,6 +3,7 @@
 
 import bpy
 import numpy as np
+from curves import Curve
 from rough_loops import Polygons
 
 ROUGH = "rough_loop."  # a boolean edge attribute for each rough loop: this, then the loop's name
@@ -23,10 +24,10 @@ def polygons(mesh):
     return Polygons(read(mesh.vertices, "co", 3, np.float64), np.append(starts, len(corners)), corners)
 
 
-def new_object(name, mesh_arrays):
-    """A new mesh object from arrays of triangles, in the scene."""
+def new_object(name, positions, faces):
+    """A new mesh object in the scene, from the faces' vertices in order."""
     mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata(mesh_arrays.positions.tolist(), [], mesh_arrays.vertices.reshape(-1, 3).tolist())
+    mesh.from_pydata(positions.tolist(), [], faces)
     ob = bpy.data.objects.new(name, mesh)
     bpy.context.scene.collection.objects.link(ob)
     return ob
@@ -34,6 +35,23 @@ def new_object(name, mesh_arrays):
 
 def edge_pairs(mesh):
     return np.sort(read(mesh.edges, "vertices", 2, np.int32), axis=1)
+
+
+def curve(mesh, vertices, closed=True):
+    """The polyline through vertices in order."""
+    return surface_curve(mesh, np.stack([vertices, vertices], axis=1), np.zeros(len(vertices)), closed)
+
+
+def surface_curve(mesh, edge_vertices, edge_parameters, closed):
+    """The polyline through points on edges: (1 - t) a + t b on the edge ab."""
+    positions, normals = (read(mesh.vertices, name, 3, np.float64) for name in ("co", "normal"))
+    (a, b), t = np.transpose(edge_vertices), np.asarray(edge_parameters)[:, None]
+    return Curve(*((1.0 - t) * array[a] + t * array[b] for array in (positions, normals)), closed)
+
+
+def mean_edge_length(mesh):
+    ends = read(mesh.vertices, "co", 3, np.float64)[edge_pairs(mesh)]
+    return np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).mean()
 
 
 def edge_mask(mesh, loop):

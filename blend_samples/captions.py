@@ -4,11 +4,14 @@
 import bpy
 from images import link, material, render, workbench
 
-LINE = 30  # pixels
+LINE, PAD = 30, 8  # pixels
 
 
 def strip(width, words):
-    """Words are (line from the top, pixels from the left, text, colour); gives rows of pixels, from the bottom."""
+    """Words are (line from the top, pixels from the left, text, colour); gives rows of pixels, from the bottom.
+
+    Words too long for their room, up to the next on their line or to the border, are made smaller.
+    """
     height = LINE * (1 + max(line for line, *_ in words)) + 12
     scene = bpy.data.scenes.new("words")
     workbench(scene, width, height)
@@ -21,5 +24,9 @@ def strip(width, words):
         data = bpy.data.curves.new("words", "FONT")
         data.body, data.size = text, 0.95 * LINE
         data.materials.append(material("words", colour))
-        link(scene, "words", data).location = (left, height - LINE * (line + 0.95), 0)
+        placed = link(scene, "words", data)
+        placed.location = (left, height - LINE * (line + 0.95), 0)
+        scene.view_layers[0].update()  # for the dimensions
+        room = min([other for at, other, *_ in words if at == line and other > left], default=width) - left - PAD
+        placed.scale *= min(1.0, room / placed.dimensions.x)
     return render(scene)

@@ -35,15 +35,20 @@ def workbench(scene, width, height):
 
 def render(scene):
     """Rows of pixels from the bottom, on paper."""
-    width, height = scene.render.resolution_x, scene.render.resolution_y
     with tempfile.TemporaryDirectory() as folder:
         scene.render.filepath = str(Path(folder) / "half.png")
         bpy.ops.render.render(write_still=True, scene=scene.name)
-        image = bpy.data.images.load(scene.render.filepath)
-        pixels = np.empty(4 * width * height, np.float32)
-        image.pixels.foreach_get(pixels)
-    pixels = pixels.reshape(height, width, 4)
+        pixels = load(scene.render.filepath)
     return pixels[:, :, :3] * pixels[:, :, 3:] + (1.0 - pixels[:, :, 3:]) * np.float32(PAPER)
+
+
+def load(path):
+    """Rows of pixels from the bottom, with their alpha."""
+    image = bpy.data.images.load(str(path))
+    width, height = image.size
+    pixels = np.empty(4 * width * height, np.float32)
+    image.pixels.foreach_get(pixels)
+    return pixels.reshape(height, width, 4)
 
 
 def save(pixels, path):

@@ -1,28 +1,33 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures before and after: the surface grey, the faces searched green, given loops orange, contours found blue; where
-one is known by construction, the loop that ought to be found black."""
+"""Pictures before and after: the surface grey, the faces searched green, given contours orange, contours found blue;
+where one is known by construction, the contour that ought to be found black; vertices that it must hold purple."""
 
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
 import blender_meshes
+import bmesh
 import bpy
 import captions
 import images
 import numpy as np
+import stamps
 import views
+from mathutils import Matrix
 
 SIZE, GAP = 700, 12  # pixels of one half, and between the halves
-OVERVIEW_SIZE, PAIRS_A_ROW = 344, 2
+OVERVIEW_SIZE = 344
+SHEET_COLUMNS = 3
 MARGIN, OVERVIEW_MARGIN = 2.0, 1.3  # width of what is shown, over that of the contours
 SHADES = 44  # of each colour in the overview, for a small file
 GREY, GREEN = (0.85, 0.85, 0.83), (0.55, 0.86, 0.52)
 ORANGE, BLUE, BLACK, DARK_GREEN = (1.0, 0.13, 0.0), (0.0, 0.10, 1.0), (0.02, 0.02, 0.02), (0.10, 0.32, 0.09)
+PURPLE = (0.36, 0.0, 0.5)
 
 
 @dataclass
 class Comparison:
-    """What one picture shows: loops as vertices in order, the faces searched, and a line of words for each half."""
+    """What one picture shows: curves, the faces searched, and a line of words for each half."""
 
     title: str
     before: str
@@ -31,17 +36,44 @@ class Comparison:
     found: list
     searched: np.ndarray
     truths: list = field(default_factory=list)
+    legend: str = "faces searched (green)"
+    heading: str = ""  # over both halves
+    held: tuple = ()  # vertices
+    in_view: list = field(default_factory=list)  # curves that the camera looks at, where not just those drawn
+
+    def stamp(self, mesh):
+        """Of all that the picture shows. The normals are the mesh's; Blender sums them up in an order that varies."""
+        points = [curve.points for curve in (*self.given, *self.found, *self.truths, *self.in_view)]
+        arrays = [mesh.positions, mesh.vertices, *points, self.searched, np.asarray(self.held)]
+        return stamps.stamp(arrays, [self.title, self.before, self.after, self.legend, self.heading])
+
+
+def draw_if_changed(path, ob, up, comparison):
+    """One PNG of a comparison, unless it is there already."""
+    made_of = comparison.stamp(blender_meshes.polygons(ob.data))
+    stamps.draw_if_changed(path, made_of, lambda: draw(path, ob, up, comparison))
 
 
 def draw(path, ob, up, comparison):
     """One PNG of a comparison."""
-    searched = f"{len(comparison.searched)} faces searched (green)" + (", true loop black" if comparison.truths else "")
-    right = SIZE + GAP + 10
     with _scratch():
         halves = _joined(_halves(ob, up, comparison, SIZE, MARGIN), axis=1)
-        words = [(0, 10, comparison.title, BLACK), (0, right, searched, BLACK)]
-        words += [(1, 10, comparison.before, ORANGE), (1, right, comparison.after, BLUE)]
+        heading = [(comparison.heading, BLACK)] if comparison.heading else []
+        left = [*heading, (comparison.title, BLACK), (comparison.before, ORANGE)]
+        right = [(_legend(comparison), BLACK), (comparison.after, BLUE)]
+        words = [(line, 10, *word) for line, word in enumerate(left)]
+        words += [(line, SIZE + GAP + 10, *word) for line, word in enumerate(right, len(heading))]
         images.save(np.concatenate([halves, captions.strip(halves.shape[1], words)]), path)
+
+
+def _legend(comparison):
+    """What the colours mean, besides those of the words."""
+    parts = [f"{len(comparison.searched)} {comparison.legend}"]
+    if comparison.truths:
+        parts.append("true contour black" if len(comparison.truths) == 1 else "true contours black")
+    if len(comparison.held):
+        parts.append(f"{len(comparison.held)} held vertices purple")
+    return ", ".join(parts)
 
 
 def overview_pair(ob, up, comparison):
@@ -54,9 +86,23 @@ def overview_pair(ob, up, comparison):
         return np.concatenate([halves, captions.strip(halves.shape[1], words)])
 
 
-def draw_overview(path, pairs):
+def draw_sheet(path, drawn):
+    """One PNG of pictures that are there already, at half their size."""
+    with _scratch():
+        halved = [_halved(images.load(picture)[:, :, :3]) for picture in drawn]
+    draw_overview(path, halved, SHEET_COLUMNS)
+
+
+def _halved(pixels):
+    height, width = (2 * (side // 2) for side in pixels.shape[:2])
+    return pixels[:height, :width].reshape(height // 2, 2, width // 2, 2, 3).mean(axis=(1, 3))
+
+
+def draw_overview(path, pairs, columns=2):
     """One PNG of several pairs, in rows, the first at the top left."""
-    rows = [_joined(pairs[i : i + PAIRS_A_ROW], axis=1) for i in range(0, len(pairs), PAIRS_A_ROW)]
+    blank = np.broadcast_to(np.float32(images.PAPER), pairs[0].shape)
+    filled = pairs + [blank] * (-len(pairs) % columns)
+    rows = [_joined(filled[i : i + columns], axis=1) for i in range(0, len(filled), columns)]
     with _scratch():
         images.save(np.round(np.concatenate(rows[::-1]) * SHADES) / SHADES, path)
 
@@ -84,19 +130,18 @@ def _scratch():
 def _halves(ob, up, comparison, size, margin):
     scene = bpy.data.scenes.new("picture")
     mesh = _coloured_copy(scene, ob, comparison.searched)
-    given, found, truths = (
-        [_points_and_normals(mesh, loop) for loop in loops]
-        for loops in (comparison.given, comparison.found, comparison.truths)
-    )
-    view = views.best_view(mesh, given + found, up, margin)
+    given, found = comparison.given, comparison.found
+    view = views.best_view(mesh, comparison.in_view or given + found, up, margin)
     _set_up(scene, view, size)
     thickness = view.width * (SIZE / size) ** 0.5  # lines of small pictures are a little thicker
     given_tubes = _tubes(scene, given, ORANGE, 0.0060 * thickness)
+    _balls(scene, mesh, comparison.held, 0.0160 * thickness)
     before = images.render(scene)
     for tube in given_tubes:
         tube.data.bevel_depth = 0.0035 * thickness
     _tubes(scene, found, BLUE, 0.0070 * thickness)
-    _tubes(scene, truths, BLACK, 0.0045 * thickness)
+    for truth in comparison.truths:  # on top, for where it is the contour found
+        _tube(scene, truth, BLACK, 0.0022 * thickness, lift=0.0130 * thickness)
     return before, images.render(scene)
 
 
@@ -114,12 +159,6 @@ def _coloured_copy(scene, ob, band):
     return mesh
 
 
-def _points_and_normals(mesh, loop):
-    positions = blender_meshes.read(mesh.vertices, "co", 3, np.float64)
-    normals = blender_meshes.read(mesh.vertices, "normal", 3, np.float64)
-    return positions[loop], normals[loop]
-
-
 def _set_up(scene, view, size):
     images.workbench(scene, size, size)
     shading = scene.display.shading
@@ -133,18 +172,30 @@ def _set_up(scene, view, size):
 
 
 def _tubes(scene, curves, colour, radius):
-    return [_tube(scene, curve, colour, radius) for curve in curves]
+    return [_tube(scene, curve, colour, radius, lift=radius) for curve in curves]
 
 
-def _tube(scene, curve, colour, radius):
-    """A closed tube along a loop, lifted off the surface."""
-    points, normals = curve
+def _tube(scene, curve, colour, radius, lift):
+    """A tube along a curve, lifted off the surface."""
     data = bpy.data.curves.new("contour", "CURVE")
     data.dimensions, data.bevel_depth, data.bevel_resolution = "3D", radius, 2
     spline = data.splines.new("POLY")
-    spline.points.add(len(points) - 1)
-    lifted = np.concatenate([points + radius * normals, np.ones((len(points), 1))], axis=1)
+    spline.points.add(len(curve.points) - 1)
+    lifted = np.concatenate([curve.points + lift * curve.normals, np.ones((len(curve.points), 1))], axis=1)
     spline.points.foreach_set("co", lifted.ravel())
-    spline.use_cyclic_u = True
+    spline.use_cyclic_u = curve.closed
     data.materials.append(images.material("contour", colour))
     return images.link(scene, "contour", data)
+
+
+def _balls(scene, mesh, vertices, radius):
+    """A ball at each of the vertices."""
+    bm = bmesh.new()
+    for vertex in vertices:
+        place = Matrix.Translation(mesh.vertices[vertex].co)
+        bmesh.ops.create_icosphere(bm, subdivisions=3, radius=radius, matrix=place)
+    balls = bpy.data.meshes.new("held")
+    bm.to_mesh(balls)
+    bm.free()
+    balls.materials.append(images.material("held", PURPLE))
+    images.link(scene, "held", balls)

@@ -10,7 +10,8 @@ COLUMNS = [
 NOTE = (
     "Band, cut, nodes and arcs are those of the last iteration; ms is the time of the native stages. Salience says how "
     "far to trust a result: above 2 nearly always right, below 0.5 seldom. 'off truth': the mean distance to the loop "
-    "known by construction, in mean edge lengths of the mesh. 'settings': what differs from the add-on's defaults."
+    "known by construction (the nearest of several), in mean edge lengths of the mesh. 'settings': what differs from "
+    "the add-on's defaults; for the thesis's figures, which call the native module, from the module's."
 )
 
 
@@ -22,8 +23,12 @@ def row(sample, contour, mesh_faces, settings, result, off_truth):
     milliseconds = 1000.0 * sum(counts["seconds"].values())
     outcome = [result.status, f"{result.salience:.2f}", f"{result.initial_ratio:.4g}", f"{result.ratio:.4g}"]
     off = "" if off_truth is None else f"{off_truth:.2f}"
-    differs = ", ".join(f"{name} {value:g}" for name, value in settings.items())
+    differs = ", ".join(f"{name} {_in_short(value)}" for name, value in settings.items())
     return [sample, contour, *map(str, sizes), str(counts["passes"]), *outcome, f"{milliseconds:.1f}", off, differs]
+
+
+def _in_short(value):
+    return f"{value:g}" if isinstance(value, float) else str(value)
 
 
 def lines(rows):

@@ -3,6 +3,8 @@
 
     blender -b --factory-startup --python-exit-code 1 --python blend_samples/run_samples.py -- --output build/samples
 
+`--only figures` runs just the figures of the thesis, `--only 5.4` one of them.
+
 With `--overview blend_samples/pictures/overview.png` it draws the picture of the README instead, and nothing else.
 
 BLENDER_USER_SCRIPTS names the folder whose `addons` holds the add-on with its native module. Every contour goes the way
@@ -12,8 +14,6 @@ loop's.
 """
 
 import argparse
-import hashlib
-import json
 import sys
 import tempfile
 import traceback
@@ -31,10 +31,11 @@ import blender_meshes  # noqa: E402
 import pictures  # noqa: E402
 import real_meshes  # noqa: E402
 import report  # noqa: E402
+import run_figures  # noqa: E402
+from curves import mean_distance  # noqa: E402
 from rough_loops import rough_loop, settings  # noqa: E402
 
 FOUND = "found_loop."  # a boolean edge attribute for each contour found
-DRAWN_BY = [HERE / name for name in ("pictures.py", "views.py", "captions.py", "images.py")]
 WORDS = ("given: rough loops", "found: part boundaries")
 OVERVIEW = {  # the samples in the README's picture, with what is said of each
     "hand": ("Five fingers", *WORDS),
@@ -71,7 +72,8 @@ def stored_settings(ob, names):
 
 def real_sample(name, archive):
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    ob = blender_meshes.new_object(name, real_meshes.read_off(archive, name))
+    triangles = real_meshes.read_off(archive, name)
+    ob = blender_meshes.new_object(name, triangles.positions, triangles.vertices.reshape(-1, 3).tolist())
     bpy.context.view_layer.objects.active = ob
     mesh = blender_meshes.polygons(ob.data)
     cuts = real_meshes.cuts(name, mesh)
@@ -87,9 +89,10 @@ def samples(only, output):
     for path in sorted(HERE.glob("*.blend")):
         if only in (None, path.stem):
             yield made_sample(path)
-    with real_meshes.open_archive(output / "libcgal-demo") as archive:
-        for name in real_meshes.CUTS:
-            if only in (None, name):
+    wanted = [name for name in real_meshes.CUTS if only in (None, name)]
+    if wanted:
+        with real_meshes.open_archive(output / "libcgal-demo") as archive:
+            for name in wanted:
                 yield real_sample(name, archive)
 
 
@@ -129,9 +132,10 @@ def run_contour(sample, name, output, api, mrc):
         f"given loop: ratio {result.initial_ratio:.3g}",
         outcome(result),
     )
-    truths = [sample.truths[name]] if name in sample.truths else []
-    comparison = pictures.Comparison(*words, [loop], [found], searched(sample, name, api, mrc), truths)
-    draw_if_changed(output / "pictures" / f"{sample.name}.{name}.png", sample, comparison)
+    truths = curves(sample, [sample.truths[name]] if name in sample.truths else [])
+    given_and_found = curves(sample, [loop]), curves(sample, [found])
+    comparison = pictures.Comparison(*words, *given_and_found, searched(sample, name, api, mrc), truths)
+    pictures.draw_if_changed(output / "pictures" / f"{sample.name}.{name}.png", sample.ob, sample.up, comparison)
     return report.row(
         sample.name, name, len(mesh.polygons), sample.settings[name], result, off_truth(sample, name, found)
     )
@@ -154,31 +158,16 @@ def searched(sample, name, api, mrc):
     return np.unique(np.concatenate(faces))
 
 
+def curves(sample, loops):
+    return [blender_meshes.curve(sample.ob.data, loop) for loop in loops]
+
+
 def off_truth(sample, name, found):
     """Mean distance of the vertices found to the loop known by construction, in mean edge lengths."""
     if name not in sample.truths:
         return None
-    positions = blender_meshes.read(sample.ob.data.vertices, "co", 3, np.float64)
-    sides = np.diff(positions[blender_meshes.edge_pairs(sample.ob.data)], axis=1)
-    apart = positions[found][:, None] - positions[sample.truths[name]][None]
-    return np.linalg.norm(apart, axis=2).min(axis=1).mean() / np.linalg.norm(sides, axis=2).mean()
-
-
-def draw_if_changed(path, sample, comparison):
-    """Draws a picture unless it is there and was made of the same mesh, contours and words by the same code."""
-    mesh = blender_meshes.polygons(sample.ob.data)
-    digest = hashlib.sha256()
-    loops = comparison.given + comparison.found + comparison.truths
-    for array in (mesh.positions, mesh.vertices, *loops, comparison.searched):
-        digest.update(np.ascontiguousarray(array).tobytes())
-    words = [comparison.title, comparison.before, comparison.after, *(file.read_text() for file in DRAWN_BY)]
-    digest.update(json.dumps(words).encode())
-    stamp = path.with_suffix(".sha256")
-    if path.exists() and stamp.exists() and stamp.read_text() == digest.hexdigest():
-        return
-    path.parent.mkdir(parents=True, exist_ok=True)
-    pictures.draw(path, sample.ob, sample.up, comparison)
-    stamp.write_text(digest.hexdigest())
+    contour, truth = curves(sample, [found, sample.truths[name]])
+    return mean_distance(contour, truth) / blender_meshes.mean_edge_length(sample.ob.data)
 
 
 def save(sample, output):
@@ -202,6 +191,8 @@ def run(output, only):
                 traceback.print_exc()
                 failures.append(f"{sample.name}, {name}: {error}")
         save(sample, output)
+    for part, found in zip((rows, failures), run_figures.run(output / "figures", only, mrc)):
+        part.extend(found)
     return rows, failures
 
 
@@ -226,7 +217,8 @@ def overview_pair(sample, words, api, mrc):
         list(api.optimize_contour(sample.ob, sample.loops[n], **sample.settings[n]).vertices) for n in sample.loops
     ]
     faces = np.unique(np.concatenate([searched(sample, name, api, mrc) for name in sample.loops]))
-    return pictures.overview_pair(sample.ob, sample.up, pictures.Comparison(*words, given, found, faces))
+    comparison = pictures.Comparison(*words, curves(sample, given), curves(sample, found), faces)
+    return pictures.overview_pair(sample.ob, sample.up, comparison)
 
 
 def main():
@@ -234,7 +226,7 @@ def main():
     task = parser.add_mutually_exclusive_group(required=True)
     task.add_argument("--output", type=Path, help="folder for .blend files, pictures and the table")
     task.add_argument("--overview", type=Path, metavar="PATH", help="draw just the picture of the README")
-    parser.add_argument("--only", metavar="NAME", help="just this sample")
+    parser.add_argument("--only", metavar="NAME", help="just this sample or figure")
     arguments = parser.parse_args(sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else [])
     if arguments.overview:
         return draw_overview(arguments.overview.resolve())

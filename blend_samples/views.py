@@ -28,7 +28,7 @@ def best_view(mesh, curves, up, margin):
     direction = _best_direction(mesh, positions, curves, np.asarray(up, float))
     right, top = _frame(direction, up)
     flat = np.stack([right, top], axis=1)
-    shown = np.concatenate([points for points, _ in curves]) @ flat
+    shown = np.concatenate([curve.points for curve in curves]) @ flat
     low, high = shown.min(axis=0), shown.max(axis=0)
     whole = np.ptp(positions @ flat, axis=0).max()
     width = min(max(margin * (high - low).max(), 0.2 * whole), 1.1 * whole)
@@ -49,28 +49,34 @@ def _best_direction(mesh, positions, curves, up):
     tree = BVHTree.FromPolygons(positions.tolist(), triangles.tolist())
     size = np.ptp(positions, axis=0).max()
     pieces = [_pieces(curve) for curve in curves]
-    axes = [_axis(curve) for curve in curves]
+    axes = [_axis(curve) for curve in curves if _goes_round_a_limb(curve)]
     views = _directions(up, axes)
     return max(views, key=lambda view: sum(_seen(tree, view, size, *piece) for piece in pieces))
 
 
 def _pieces(curve):
-    """Middles and sides of a closed curve, and the outward normals that its points have."""
-    points, normals = curve
-    side = np.roll(points, -1, axis=0) - points
-    keep = np.linspace(0, len(points), min(SAMPLES, len(points)), endpoint=False).astype(int)
-    return (points + side / 2)[keep], side[keep] / np.linalg.norm(side, axis=1).sum(), normals[keep]
+    """Middles and sides of a curve, the outward normals of its points, and whether it lies on one face of a body."""
+    sides = curve.sides()
+    keep = np.linspace(0, len(sides), min(SAMPLES, len(sides)), endpoint=False).astype(int)
+    middles = (curve.starts() + sides / 2)[keep]
+    weights = sides[keep] / np.linalg.norm(sides, axis=1).sum()
+    return middles, weights, curve.normals[keep], not _goes_round_a_limb(curve)
 
 
 def _axis(curve):
     """The unit normal of a closed curve: its area vector."""
-    points = curve[0] - curve[0].mean(axis=0)
+    points = curve.points - curve.points.mean(axis=0)
     area = np.cross(points, np.roll(points, -1, axis=0)).sum(axis=0)
     return area / max(np.linalg.norm(area), 1e-30)
 
 
+def _goes_round_a_limb(curve):
+    """True where the surface faces away from a closed curve's axis; along it one would only see the limb's end."""
+    return curve.closed and np.abs(curve.normals @ _axis(curve)).mean() < 0.7
+
+
 def _directions(up, axes):
-    """Directions spread evenly, none from far above or below and none along a contour's axis."""
+    """Directions spread evenly, none from far above or below and none along the axis of a limb."""
     k = np.arange(DIRECTIONS) + 0.5
     height, turn = 1 - 2 * k / DIRECTIONS, np.pi * (1 + 5**0.5) * k
     flat = np.sqrt(1 - height**2)
@@ -80,9 +86,11 @@ def _directions(up, axes):
     return sideways or list(level)
 
 
-def _seen(tree, view, size, middles, sides, normals):
-    """The visible part of the projected length."""
+def _seen(tree, view, size, middles, sides, normals, on_a_face):
+    """The visible part of the projected length; on one face of a body, as far as that looks at the camera."""
     length = np.linalg.norm(np.cross(sides, view), axis=1)
+    if on_a_face:
+        length *= np.clip(normals @ view, 0.0, None)
     starts = middles + 2e-3 * size * normals
     free = [tree.ray_cast(Vector(start), Vector(view))[0] is None for start in starts]
     return length[free].sum()

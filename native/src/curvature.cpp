@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <mrc/curvature.h>
 
+#include "disk.h"
 #include "index_map.h"
 
 #include <Eigen/Eigenvalues>
@@ -19,54 +20,6 @@ namespace mrc {
 namespace {
 
 using Mat3 = Eigen::Matrix3d;
-
-/// Signed area of the part of the triangle (0, a, b) inside the circle of radius r about 0, in the plane.
-double sector_area(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double r) {
-    const Eigen::Vector2d d = b - a;
-    const auto cross = [](const Eigen::Vector2d& p, const Eigen::Vector2d& q) { return p.x() * q.y() - p.y() * q.x(); };
-    const auto wedge = [&](const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
-        return 0.5 * r * r * std::atan2(cross(p, q), p.dot(q));
-    };
-    const double length2 = d.squaredNorm();
-    if (length2 == 0.0) return 0.0;
-    const double middle = -a.dot(d) / length2;
-    const double half2 = (r * r - (a + middle * d).squaredNorm()) / length2;
-    if (half2 <= 0.0) return wedge(a, b);
-    const double half = std::sqrt(half2);
-    const double enter = std::clamp(middle - half, 0.0, 1.0), leave = std::clamp(middle + half, 0.0, 1.0);
-    if (leave <= enter) return wedge(a, b);
-    const Eigen::Vector2d p = a + enter * d, q = a + leave * d;
-    return (enter > 0.0 ? wedge(a, p) : 0.0) + 0.5 * cross(p, q) + (leave < 1.0 ? wedge(q, b) : 0.0);
-}
-
-/// Area of a triangle inside the ball of radius r about 0.
-double area_in_ball(const Vec3& a, const Vec3& b, const Vec3& c, double r) {
-    const Vec3 cross = (b - a).cross(c - a);
-    const double doubled = cross.norm();
-    if (doubled == 0.0) return 0.0;
-    if (std::max({a.squaredNorm(), b.squaredNorm(), c.squaredNorm()}) <= r * r) return 0.5 * doubled;
-    const Vec3 normal = cross / doubled;
-    const double height = a.dot(normal);
-    const double rest = r * r - height * height;
-    if (rest <= 0.0) return 0.0;
-    const Vec3 x = (b - a).normalized(), y = normal.cross(x);
-    const auto flat = [&](const Vec3& p) { return Eigen::Vector2d(p.dot(x), p.dot(y)); };
-    const Eigen::Vector2d p = flat(a), q = flat(b), s = flat(c);
-    const double radius = std::sqrt(rest);
-    return std::max(0.0, sector_area(p, q, radius) + sector_area(q, s, radius) + sector_area(s, p, radius));
-}
-
-/// Length of the segment ab inside the ball of radius r about 0.
-double length_in_ball(const Vec3& a, const Vec3& b, double r) {
-    const Vec3 d = b - a;
-    const double length2 = d.squaredNorm();
-    if (length2 == 0.0) return 0.0;
-    const double middle = -a.dot(d) / length2;
-    const double half2 = (r * r - (a + middle * d).squaredNorm()) / length2;
-    if (half2 <= 0.0) return 0.0;
-    const double half = std::sqrt(half2);
-    return std::sqrt(length2) * std::max(0.0, std::min(1.0, middle + half) - std::max(0.0, middle - half));
-}
 
 /// Angle of a polygon at its corner i, in radians.
 double corner_angle(const Surface& surface, std::span<const int> face, std::size_t i) {
@@ -184,10 +137,10 @@ class CurvatureField::Impl {
   public:
     Impl(const Surface& surface, double h, const Options& options)
         : surface_(surface),
-          radius_(options.curvature_radius * h),
           sigma_(options.curvature_smoothing * h),
           negligible_(1e-4 / h),
-          near_(surface) {}
+          near_(surface),
+          disks_(surface, options.curvature_radius * h) {}
 
     const VertexCurvature& at(int vertex) {
         const int n = asked_.insert(vertex);
@@ -195,46 +148,17 @@ class CurvatureField::Impl {
         return curvatures_[n];
     }
 
-    double dihedral(int halfedge) {
-        const int twin = surface_.twin(halfedge);
-        if (twin < 0) return 0.0;
-        const int n = edges_.insert(surface_.edge(halfedge));
-        if (n == static_cast<int>(angles_.size())) angles_.push_back(dihedral_angle(halfedge, twin));
-        return angles_[n];
-    }
+    double dihedral(int halfedge) { return disks_.dihedral(halfedge); }
 
   private:
     const Surface& surface_;
-    double radius_, sigma_, negligible_;
+    double sigma_, negligible_;
     NearGraph near_;
-    IndexMap asked_, edges_, triangles_;
+    DiskTensors disks_;
+    IndexMap asked_;
     std::deque<VertexCurvature> curvatures_;  // a deque, so that references stay
-    std::vector<double> angles_;              // of edges
-    std::vector<Vec3> normals_;               // of triangles
     std::vector<Mat3> tensors_;               // by number in near_
     std::vector<char> has_tensor_;
-    std::vector<int> disk_, crossed_;  // scratch of one disk
-
-    double dihedral_angle(int halfedge, int twin) {
-        const Vec3 n1 = triangle_normal(halfedge / 3), n2 = triangle_normal(twin / 3);
-        if (n1.isZero(0.0) || n2.isZero(0.0)) return 0.0;
-        const Vec3 along = (surface_.position(surface_.to(halfedge)) - surface_.position(surface_.from(halfedge))).normalized();
-        const double angle = std::atan2(along.dot(n1.cross(n2)), n1.dot(n2));
-        return angle > std::numbers::pi - 1e-6 ? -angle : angle;
-    }
-
-    /// Unit; of a triangle without area, its polygon's; zero where that has none either.
-    Vec3 triangle_normal(int triangle) {
-        const int n = triangles_.insert(triangle);
-        if (n < static_cast<int>(normals_.size())) return normals_[n];
-        const auto& v = surface_.triangle(triangle);
-        const Vec3 p = surface_.position(v[1]) - surface_.position(v[0]), q = surface_.position(v[2]) - surface_.position(v[0]);
-        Vec3 area = p.cross(q);
-        const double size = std::max({p.squaredNorm(), q.squaredNorm(), (p - q).squaredNorm()});
-        if (area.norm() <= 1e-12 * size) area = polygon_area_vector(surface_, surface_.triangle_face(triangle));
-        normals_.push_back(area.norm() <= 1e-12 * size ? Vec3(Vec3::Zero()) : Vec3(area.normalized()));
-        return normals_.back();
-    }
 
     Vec3 vertex_normal(int vertex) const {
         Vec3 sum = Vec3::Zero();
@@ -254,52 +178,10 @@ class CurvatureField::Impl {
             has_tensor_.resize(2 * n + 1, 0);
         }
         if (!has_tensor_[n]) {
-            tensors_[n] = disk_tensor(near_.vertex(n));
+            tensors_[n] = disks_.at(near_.vertex(n));
             has_tensor_[n] = 1;
         }
         return tensors_[n];
-    }
-
-    /// Eq. 3.4 at a vertex: F = 1 / |B| sum beta(e) |e in B| e e^T.
-    Mat3 disk_tensor(int vertex) {
-        const Vec3& centre = surface_.position(vertex);
-        collect_disk(vertex);
-        double area = 0.0;
-        Mat3 sum = Mat3::Zero();
-        for (const int t : disk_) {
-            const auto& v = surface_.triangle(t);
-            area += area_in_ball(surface_.position(v[0]) - centre, surface_.position(v[1]) - centre,
-                                 surface_.position(v[2]) - centre, radius_);
-        }
-        for (const int h : crossed_) {
-            const Vec3 a = surface_.position(surface_.from(h)) - centre, b = surface_.position(surface_.to(h)) - centre;
-            const Vec3 unit = (b - a).normalized();
-            sum += (dihedral(h) * length_in_ball(a, b, radius_)) * (unit * unit.transpose());
-        }
-        if (area > 0.0) sum /= area;
-        return sum;
-    }
-
-    /// The triangles of the disk B, and a half-edge of each inner edge that it crosses: what hangs together with the vertex
-    /// inside the ball, so that the other side of a thin plate stays out.
-    void collect_disk(int vertex) {
-        disk_.clear();
-        crossed_.clear();
-        const Vec3& centre = surface_.position(vertex);
-        const auto add = [&](int triangle) {
-            if (std::ranges::find(disk_, triangle) == disk_.end()) disk_.push_back(triangle);
-        };
-        for (const int h : surface_.outgoing(vertex)) add(h / 3);
-        for (std::size_t i = 0; i < disk_.size(); ++i) {
-            for (int h = 3 * disk_[i]; h < 3 * disk_[i] + 3; ++h) {
-                const int twin = surface_.twin(h);
-                if (twin < 0) continue;
-                const Vec3 a = surface_.position(surface_.from(h)) - centre, b = surface_.position(surface_.to(h)) - centre;
-                if (length_in_ball(a, b, radius_) == 0.0) continue;
-                if (std::ranges::find(crossed_, twin) == crossed_.end()) crossed_.push_back(h);
-                add(twin / 3);
-            }
-        }
     }
 
     /// The tensors round a vertex, averaged term by term (Alliez et al. 2003).

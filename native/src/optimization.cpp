@@ -79,6 +79,7 @@ void Optimization::begin_phase(int steiner) {
     result_.ratio = current_.ratio;
     result_.objective = result_.lower_bound = current_.objective;
     result_.gap = 0.0;
+    best_found_ = result_.status == Status::unchanged ? std::numeric_limits<double>::infinity() : current_.objective;
     if (feasible_) result_.history.push_back(current_.objective);
     moving_ = true;
 }
@@ -179,7 +180,8 @@ std::optional<EdgeForm> Optimization::make_region_form(const Flow& flow) const {
 void Optimization::accept(const Contour& found, const std::optional<EdgeForm>& region) {
     const double enclosed = region ? region->along(found) : 0.0;
     const Measure measured = measure(surface_, setting_->energy, found, steiner_, enclosed);
-    result_.salience = measured.salience;
+    if (!below(best_found_, measured.objective)) result_.salience = measured.salience;
+    best_found_ = std::min(best_found_, measured.objective);
     if (feasible_ && !below(measured.objective, result_.objective)) return;
     result_.contour = found;
     result_.ratio = measured.ratio;

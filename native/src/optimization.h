@@ -77,6 +77,7 @@ class Optimization {
     Measure current_;  // of the contour reached so far
     int steiner_ = 0;  // k of the iterations under way
     bool moving_ = false, moved_ = false;
+    double best_found_ = 0.0;     // the least objective that this phase found, or began with where that was found before
     bool searched_ = false;       // some iteration found a contour
     double enclosed_ = 0.0;       // the change of the region term's integral so far
     std::optional<Patch> patch_;  // of the iteration under way

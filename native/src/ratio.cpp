@@ -52,7 +52,7 @@ class Search {
     }
 
     RatioResult run() {
-        std::vector<std::vector<int>> open;
+        std::vector<std::vector<int>> open, pairs;
         std::vector<int> all(graph_.sources.size());
         for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
         if (!all.empty() && !graph_.destinations.empty()) open.push_back(std::move(all));
@@ -62,12 +62,17 @@ class Search {
             set = descend(std::move(set));
             if (set.empty()) continue;
             if (set.size() == 1 || !graph_.matched) {
-                alone_ ? search_above_hull(set) : open.push_back(std::move(set));
+                pairs.push_back(std::move(set));
                 continue;
             }
             const auto middle = set.begin() + static_cast<std::ptrdiff_t>(set.size() / 2);
             open.emplace_back(middle, set.end());
             open.emplace_back(set.begin(), middle);
+        }
+        // Only now, with the best of all pairs' own paths, the single pairs that are left: most of them are decided by it.
+        for (std::vector<int>& pair : pairs) {
+            pair = descend(std::move(pair));
+            if (!pair.empty()) search_above_hull(pair);
         }
         result_.lower_bound = std::min(result_.objective, unresolved_);
         return std::move(result_);
@@ -81,7 +86,6 @@ class Search {
     Pass pass_;
     double lambda_;
     bool counted_;                  // every arc has length 1, so that L is a count (appendix A)
-    bool alone_ = false;            // the last pass was from one pair alone, so that its bounds are its own paths
     double unresolved_ = infinity;  // least bound of the pairs given up
     RatioResult result_;
 
@@ -92,7 +96,6 @@ class Search {
     std::vector<int> descend(std::vector<int> set) {
         for (;;) {
             relax(set);
-            alone_ = set.size() == 1 || !graph_.matched;
             std::vector<int> undecided;
             const bool improved = collect(set, undecided);
             if (undecided.empty() || !improved) return undecided;

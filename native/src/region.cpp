@@ -9,6 +9,9 @@
 
 #include <algorithm>
 #include <array>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
 
 namespace mrc {
 namespace {
@@ -74,6 +77,18 @@ int outside(const Surface& surface, const std::vector<int>& triangles) {
     };
     const auto last = std::ranges::find_if(triangles.rbegin(), triangles.rend(), at_border);
     return last == triangles.rend() ? triangles.back() : *last;
+}
+
+/// True where these triangles, a connected component, close up to a sphere: then every contour parts them in two.
+bool is_sphere(const Surface& surface, const std::vector<int>& triangles) {
+    std::unordered_set<int> vertices;
+    for (const int t : triangles) {
+        for (int h = 3 * t; h < 3 * t + 3; ++h) {
+            if (surface.twin(h) < 0) return false;
+            vertices.insert(surface.from(h));
+        }
+    }
+    return 2 * vertices.size() == triangles.size() + 4;  // V - E + F = 2 with E = 3 F / 2
 }
 
 /// The barycentric coordinates of a point on a triangle's border.
@@ -163,7 +178,14 @@ double enclosed_change(const Surface& surface, std::span<const double> density, 
         if (surface.twin(h) == Surface::border) tree.leaving[0] = h;  // through the border, so that the root counts too
     }
     const EdgeForm form = gather(surface, tree, density);
-    return form.along(to) - form.along(from);
+    const double change = form.along(to) - form.along(from);
+    if (!is_sphere(surface, tree.triangles)) return change;
+    // There a contour may pass the root. The form misses the whole where the root is on a contour's left: where its area is negative.
+    const std::vector<double> ones(surface.face_count(), 1.0);
+    const EdgeForm area = gather(surface, tree, ones);
+    double total = 0.0;
+    for (const int t : tree.triangles) total += content(surface, density, t);
+    return change + total * ((area.along(to) < 0.0) - (area.along(from) < 0.0));
 }
 
 }  // namespace mrc

@@ -205,6 +205,52 @@ TEST(Ratio, bounds_save_passes_over_one_search_a_source) {
     EXPECT_LT(ours, thesis);
 }
 
+/// Two pairs: first a chain of diamonds whose many paths are all bad and alike, then three paths of which the best lies above the
+/// line through the other two.
+WeightedGraph distracting_graph() {
+    WeightedGraph graph;
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> weight(-0.05, 0.05);
+    const auto add_node = [&] {
+        graph.first_arc.push_back(static_cast<int>(graph.from.size()));
+        return static_cast<int>(graph.first_arc.size()) - 1;
+    };
+    const auto add_arc = [&](int from, double f, double g) {
+        graph.from.push_back(from);
+        graph.f.push_back(f);
+        graph.g.push_back(g);
+    };
+    const int bad = add_node(), good = add_node();
+    int last = bad;
+    for (int diamond = 0; diamond < 40; ++diamond) {
+        const int upper = add_node();
+        add_arc(last, 0.2 + weight(random), 0.05);
+        const int lower = add_node();
+        add_arc(last, 0.2 + weight(random), 0.06 + weight(random) / 10);
+        const int next = add_node();
+        add_arc(upper, 0.0, 0.01);
+        add_arc(lower, 0.0, 0.01);
+        last = next;
+    }
+    const int end = add_node();
+    add_arc(good, 0.0, 1.0);
+    add_arc(good, -6.0, 3.0);
+    add_arc(good, -2.9, 2.0);
+    graph.first_arc.push_back(static_cast<int>(graph.from.size()));
+    graph.sources = {{bad}, {good}};
+    graph.destinations = {{last}, {end}};
+    return graph;
+}
+
+TEST(Ratio, a_pair_of_many_bad_paths_does_not_use_up_the_labels_of_the_others) {
+    mrc::RatioOptions options;
+    options.objective = {1.0, 1.0};
+    options.most_labels = 1000;
+    const mrc::RatioResult result = mrc::minimum_ratio(distracting_graph(), options);
+    EXPECT_DOUBLE_EQ(result.objective, -2.9 / 2.0 + 2.0);
+    EXPECT_DOUBLE_EQ(result.lower_bound, result.objective);
+}
+
 TEST(Ratio, a_graph_without_a_path_has_no_result) {
     WeightedGraph graph;
     graph.first_arc = {0, 0, 0};

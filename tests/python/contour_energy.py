@@ -9,7 +9,7 @@ from itertools import pairwise
 from math import acos, ceil, exp, inf, pi, sin
 
 import numpy as np
-from brute_force import DEFAULTS, NOTHING, SIZE_RINGS, TURN_TOLERANCE, Curvatures, Geometry
+from brute_force import DEFAULTS, NOTHING, SIZE_RINGS, TURN_TOLERANCE, Curvatures, Geometry, edges_of
 
 EXTRA = {
     "refinement": 0,
@@ -21,6 +21,8 @@ EXTRA = {
     "length_measure": "arc",
     "denominator": "length",
     "ends": "edges",
+    "region_weight": 0.0,
+    "region_side": "left",
 }
 
 
@@ -77,6 +79,68 @@ def edge_of(p, q):
     return tuple(sorted(ends)) if len(ends) == 2 else None
 
 
+class Enclosed:
+    """What a closed contour of a band encloses on its left more than the given one does (6.1.2): a 1-form on the
+    band's edges, by least squares, whose circulation round each triangle is what that holds, and which is 0 along the
+    given contour. A triangle holds its share of its polygon's area times the density."""
+
+    def __init__(self, geometry, triangles, edges, density, given):
+        self.content = {frozenset(t): (t, share) for t, share in self.contents(geometry, triangles, density)}
+        self.number = {edge: i for i, edge in enumerate(dict.fromkeys(tuple(sorted(edge)) for edge in edges))}
+        rows, held = [], []
+        for triangle, share in self.content.values():
+            rows.append(self._row([(vertex(a), vertex(b)) for a, b in edges_of(triangle)]))
+            held.append(share)
+        rows.append(self._row(list(pairwise([*given, given[0]]))))
+        held.append(0.0)
+        self.form, *_ = np.linalg.lstsq(np.array(rows), np.array(held), rcond=None)
+        assert np.allclose(np.array(rows) @ self.form, held, atol=1e-12), "the band is no annulus"
+
+    @staticmethod
+    def contents(geometry, triangles, density):
+        by_corners = {frozenset(t) for t in triangles}
+        starts = np.cumsum([0] + [len(face) - 2 for face in geometry.mesh.faces])
+        for i, face in enumerate(geometry.mesh.faces):
+            x = geometry.x[list(face)]
+            polygon = np.linalg.norm(0.5 * np.cross(x, np.roll(x, -1, axis=0)).sum(axis=0))
+            own = geometry.triangles[starts[i] : starts[i + 1]]
+            sizes = [np.linalg.norm(np.cross(*(geometry.x[[b, c]] - geometry.x[a]))) for a, b, c in own]
+            for triangle, size in zip(own, sizes, strict=True):
+                if frozenset(triangle) in by_corners:
+                    yield triangle, density[i] * polygon * size / sum(sizes)
+
+    def _row(self, chords):
+        row = np.zeros(len(self.number))
+        for p, q in chords:
+            edge = edge_of(p, q)
+            row[self.number[edge]] += (parameter(q, *edge) - parameter(p, *edge)) / UNITS
+        return row
+
+    def _from(self, corner, other, share):
+        sign = 1 if corner < other else -1
+        return sign * share * self.form[self.number[tuple(sorted((corner, other)))]]
+
+    def along(self, p, q):
+        """Along an edge the form is even. A chord across a triangle cuts off a corner: by Stokes, the way round the
+        corner and what is in it."""
+        edge = edge_of(p, q)
+        if edge is not None:
+            return (parameter(q, *edge) - parameter(p, *edge)) / UNITS * self.form[self.number[edge]]
+        corner = min(set(p[:2]) & set(q[:2]), default=q[0] if p[2] == 0 else p[0])
+        (x, s), (y, t) = self._off(corner, p), self._off(corner, q)
+        triangle, content = self.content[frozenset((corner, x, y))]
+        sign = 1 if (y, x) in edges_of(triangle) else -1  # the cut corner's round runs from p to the corner to q
+        return self._from(corner, y, t) - self._from(corner, x, s) - sign * content * s * t
+
+    @staticmethod
+    def _off(corner, p):
+        """The other end of the edge from a corner on which p lies, and how far along it."""
+        if p[0] == p[1]:
+            return p[0], 1.0
+        other = p[1] if p[0] == corner else p[0]
+        return other, parameter(p, corner, other) / UNITS
+
+
 class PointEnergy:
     """Scales at the given contour, and f and g of any arc."""
 
@@ -86,7 +150,7 @@ class PointEnergy:
         self.ridge = self.options["feature"] == "ridge"
         self.given, self.closed = list(given), closed
         self.along_edges = all(edge_of(p, q) is not None for p, q in self.segments(self.given))
-        self.known, self.halves = {}, {}
+        self.known, self.halves, self.enclosed = {}, {}, None
         self._scales()
         self._fields(attractors)
 
@@ -149,12 +213,9 @@ class PointEnergy:
         if p not in self.known:
             normal = self.linear(p, lambda v: self.geometry.normal[v])
             normal = normal / np.linalg.norm(normal)
-            kappa = self.linear(p, lambda v: max(self._raw(v), -self.clamp))
+            kappa = self.linear(p, lambda v: max(self._unclamped(v), -self.clamp))
             self.known[p] = normal, kappa, self._direction(p, normal), self._besides(p)
         return self.known[p]
-
-    def _raw(self, v):
-        return -self.curvatures[v].kappa_max if self.ridge else self.curvatures[v].kappa_min
 
     def _direction(self, p, normal):
         spread = self.linear(p, lambda v: self.curvatures[v].kappa_max - self.curvatures[v].kappa_min)
@@ -181,6 +242,15 @@ class PointEnergy:
             if d <= radius:
                 total -= strength * self.K * exp(-(d**2) / (2 * sigma**2))
         return total
+
+    def weigh_region(self, space, density):
+        """The region term, for contours of this band."""
+        triangles, edges = map(tuple, space["triangles"].tolist()), map(tuple, space["edges"].tolist())
+        self.enclosed = Enclosed(self.geometry, triangles, edges, density, self.given)
+
+    def region_factor(self):
+        side = 1 if self.options["region_side"] == "left" else -1
+        return side * self.options["region_weight"] * self.K / self.L0
 
     def crease_weight(self, p, q):
         edge = edge_of(p, q)
@@ -228,6 +298,8 @@ class PointEnergy:
         else:
             f = 0.5 * self.kappa_0 * (length - along)
         f += 0.5 * besides * length + 0.5 * self.options["crease"] * self.K * sum(half[4] for half in halves)
+        if self.enclosed is not None:
+            f += 0.5 * self.region_factor() * sum(self.enclosed.along(*chord) for chord in chords)
         return f, 0.5 * (len(chords) if self.options["denominator"] == "arcs" else length)
 
     def arc(self, p, q, r):

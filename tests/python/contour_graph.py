@@ -15,6 +15,13 @@ from brute_force import LEVEL, Levels, edges_of, signed_ranks
 from contour_energy import UNITS, edge_of, point_on, vertex
 
 
+def lower_left(sums):
+    """The rows (F, G) that no other row is below in one and not above in the other."""
+    sums = sums[np.lexsort((sums[:, 0], sums[:, 1]))]
+    best = np.minimum.accumulate(sums[:, 0])
+    return sums[np.concatenate([[True], sums[1:, 0] < best[:-1]])]
+
+
 class AllLevels(Levels):
     """The flow between class values on diagonals, too."""
 
@@ -250,6 +257,39 @@ class ContourGraph:
                 else:
                     np.minimum(least[j, 1:], least[i, :-1] + f, out=least[j, 1:])
         return best
+
+    def best_with_bias(self, limit):
+        """The least objective below `limit` with length bias by arc length, or `limit`. Below a limit c lie the paths
+        with F <= K G (c - beta max(G / L0, floor)). With F' = F - K G (c - beta floor) that is
+        F' <= K G beta (floor - max(G / L0, floor)), which only falls with G: a path that is worse in F' and in G than
+        another on its way to the same node is not needed. Every better path found lowers the limit."""
+        energy, order, least, found = self.energy, self.order(), inf, limit
+        while found < least:
+            least = found
+            slope = energy.K * (least - energy.options["length_bias"] * energy.options["length_floor"])
+            sums = self._pareto(order, slope)
+            found = min([least, *(energy.objective(f + slope * g, g) for f, g in sums)])
+        return least
+
+    def _pareto(self, order, slope):
+        """(F', G) of the paths that no other is better than in both, each source apart."""
+        closed, found = self.energy.closed, []
+        last, ending = ({}, set(self.sources)) if closed else (self.last, set())
+        for start in [{s: (0.0, 0.0)} for s in self.sources] if closed else [self.first]:
+            labels = {i: [np.array([[f - slope * g, g]])] for i, (f, g) in start.items()}
+            for i in order:
+                if i not in labels:
+                    continue
+                here = lower_left(np.concatenate(labels.pop(i)))
+                if i in last:
+                    f, g = last[i]
+                    found.append(here + [f - slope * g, g])
+                for j, f, g in self.arcs[i]:
+                    if j not in ending:
+                        labels.setdefault(j, []).append(here + [f - slope * g, g])
+                    elif j in start:
+                        found.append(here + [f - slope * g, g])
+        return np.concatenate(found).tolist() if found else []
 
     def _longest(self, order):
         steps = [0] * len(self.nodes)

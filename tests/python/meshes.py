@@ -1,9 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makers of test meshes, and of rough contours on them."""
 
+import sys
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
+
+sys.path.append(str(Path(__file__).resolve().parents[2] / "blend_samples"))
+
+import figure_meshes  # noqa: E402
+from figure_meshes import grid_faces, split_quads  # noqa: E402
 
 
 @dataclass(frozen=True)
@@ -45,30 +52,6 @@ def polygon_mesh(positions, faces, flips=None):
         triangles += [(ring[0], ring[i], ring[i + 1]) for i in range(1, len(ring) - 1)]
     positions = np.ascontiguousarray(positions, dtype=np.float64)
     return Mesh(positions, faces, np.array(triangles, dtype=np.int32))
-
-
-def grid_faces(rows, columns, closed_rows=False, closed_columns=True):
-    """Quads of a grid whose vertex (row, column) has the number row * columns + column. Seen from outside the columns
-    run to the right and the rows up."""
-    faces = []
-    for row in range(rows if closed_rows else rows - 1):
-        for column in range(columns if closed_columns else columns - 1):
-            right, up = (column + 1) % columns, (row + 1) % rows
-            faces.append((row * columns + column, row * columns + right, up * columns + right, up * columns + column))
-    return faces
-
-
-def split_quads(faces, rng, share=1.0):
-    """Splits a share of the quads into two triangles along a random diagonal."""
-    result = []
-    for a, b, c, d in faces:
-        if rng.random() >= share:
-            result.append((a, b, c, d))
-        elif rng.random() < 0.5:
-            result += [(a, b, c), (a, c, d)]
-        else:
-            result += [(a, b, d), (b, c, d)]
-    return result
 
 
 def random_flips(faces, rng):
@@ -214,24 +197,10 @@ def peanut(rng, subdivisions=4):
     return sphere.moved(radius[:, None] * unit + 0.003 * rng.standard_normal(unit.shape))
 
 
-def finger(rng, columns=32, edge=0.2, length=4.0, base=1.0, tip=0.6):
-    """A finger on a palm, made by turning a profile: a flat palm, the concave base ring, a shaft that narrows towards
-    the tip all the way, and a round tip. Triangulated at random. Returns the mesh and the base ring's vertices (the
-    ring at the profile's only concave corner)."""
-    palm = [(r, 0.0) for r in np.arange(base + 8 * edge, base + 0.5 * edge, -edge)]
-    shaft_rows = round(length / edge)
-    shaft = [(base + (tip - base) * t, length * t) for t in np.linspace(0, 1, shaft_rows + 1)]
-    tip_rows = round(tip * np.pi / 2 / edge)
-    cap = [(tip * np.cos(a), length + tip * np.sin(a)) for a in np.linspace(0, np.pi / 2, tip_rows + 1)[1:-1]]
-    profile = palm + shaft + cap
-    angle = 2 * np.pi * np.arange(columns) / columns
-    rings = [np.stack([r * np.cos(angle), r * np.sin(angle), np.full(columns, z)], axis=-1) for r, z in profile]
-    positions = np.concatenate([*rings, np.array([[0.0, 0.0, length + tip]])])
-    positions = positions + 0.03 * edge * rng.standard_normal(positions.shape)
-    faces = split_quads(grid_faces(len(profile), columns), rng)
-    last, pole = (len(profile) - 1) * columns, len(profile) * columns
-    faces += [(last + c, last + (c + 1) % columns, pole) for c in range(columns)]
-    return polygon_mesh(positions, faces), len(palm) * columns + np.arange(columns)
+def finger(rng):
+    """The finger of the figures, and its base ring."""
+    positions, faces, base_ring = figure_meshes.finger(rng)
+    return polygon_mesh(positions, faces), base_ring
 
 
 def zigzag_contour(rng, columns, lowest, highest, step_chance=0.5):
@@ -240,35 +209,12 @@ def zigzag_contour(rng, columns, lowest, highest, step_chance=0.5):
     for _ in range(columns - 1):
         step = int(rng.choice([-1, 1])) if rng.random() < step_chance else 0
         rows.append(int(np.clip(rows[-1] + step, lowest, highest)))
-    contour = []
-    for column, (row, following) in enumerate(zip(rows, rows[1:] + rows[:1], strict=True)):
-        direction = 1 if following > row else -1
-        contour += [r * columns + column for r in range(row, following, direction)] + [following * columns + column]
-    return np.array(contour, dtype=np.int32)
+    return figure_meshes.grid_path(np.array(rows), columns)
 
 
 def plane_contours(mesh, normal, offset):
-    """The jagged loops between the polygons whose centre lies above a plane (on their left) and the others. Loops that
-    touch themselves or each other are left out, and so are those on the mesh border."""
-    centres = np.array([mesh.positions[list(face)].mean(axis=0) for face in mesh.faces])
-    above = centres @ np.asarray(normal, dtype=float) > offset
-    owner = {edge: i for i, face in enumerate(mesh.faces) for edge in zip(face, face[1:] + face[:1], strict=True)}
-    following, branched = {}, set()
-    for (a, b), face in owner.items():
-        twin = owner.get((b, a))
-        if above[face] and twin is not None and not above[twin]:
-            branched |= {a} & set(following)
-            following[a] = b
-    loops, seen = [], set()
-    for start in sorted(following):
-        loop, v = [], start
-        while v not in seen and v in following:
-            seen.add(v)
-            loop.append(v)
-            v = following[v]
-        if len(loop) >= 3 and v == start and not branched & set(loop):
-            loops.append(np.array(loop, dtype=np.int32))
-    return loops
+    """The jagged loops along a plane (`figure_meshes.plane_loops`)."""
+    return figure_meshes.plane_loops(mesh.positions, mesh.faces, normal, offset)
 
 
 def renumbered(mesh, rng):

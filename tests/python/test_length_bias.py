@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Length bias (6.1.1) by arc length, against enumeration, and by the number of edges, against the dynamic programme of
-appendix A."""
+"""Length bias (6.1.1) by arc length, against enumeration and (refined) labels of length and energy, and by the number
+of edges, against the dynamic programme of appendix A."""
 
 from math import inf
 
@@ -27,7 +27,7 @@ def biased_case(seed, k, **more):
             **more,
         }
         case = Case(mesh, contour, options, closed=family is not chain, dense="denominator" in more)
-        if "denominator" in more or case.graph.count() <= AFFORDABLE:
+        if k > 0 or "denominator" in more or case.graph.count() <= AFFORDABLE:
             return case
 
 
@@ -37,6 +37,13 @@ def test_by_arc_length(seed):
     objective = case.energy.objective
     least = min((objective(F, G) for _, F, G in case.graph.paths()), default=inf)
     check_optimum(case, min(least, case.given_objective()))
+
+
+@pytest.mark.parametrize("floor", [0.0, 0.8, 1.1])
+@seeds(20, 70)
+def test_by_arc_length_refined(floor, seed):
+    case = biased_case(seed, 1, width=1 + seed % 2, length_floor=floor)
+    check_optimum(case, case.graph.best_with_bias(case.given_objective()))
 
 
 @pytest.mark.parametrize("k", [0, 1])

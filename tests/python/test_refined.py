@@ -156,25 +156,3 @@ def test_positions_and_faces_of_the_segments(realistic):
     points = points_of(result)
     for (p, q), face in zip(zip(points, points[1:] + points[:1], strict=True), result.segment_faces, strict=True):
         assert {v for point in (p, q) for v in point[:2]} <= set(mesh.faces[face])
-
-
-def hyperboloid(edge, rng):
-    """x^2 + y^2 = 1 + z^2, with its waist at z = 0 between two rows."""
-    z = np.arange(-1.5 + 0.3 * edge, 1.5, 0.7 * edge)
-    columns = round(2 * np.pi / edge)
-    mesh = meshes.tube(np.sqrt(1 + z**2), columns, split_share=1.0, rng=rng)
-    positions = mesh.positions.copy()
-    positions[:, 2] = np.repeat(z, columns)
-    row = int(np.searchsorted(z, 0.35))
-    return mesh.moved(positions), meshes.zigzag_contour(rng, columns, row - 1, row + 1)
-
-
-def test_waist_of_a_hyperboloid():
-    """Within an edge length of the waist, and closer as edges shrink and k grows."""
-    away = []
-    for edge, k in ((0.5, 1), (0.25, 2), (0.125, 3)):
-        mesh, contour = hyperboloid(edge, np.random.default_rng(1))
-        result = optimize(mesh, contour, width=round(0.8 / edge) + 2, regular_iterations=4, iterations=6, refinement=k)
-        away.append(abs(result.positions[:, 2]).max())
-        assert away[-1] <= edge
-    assert away[0] > away[1] > away[2]

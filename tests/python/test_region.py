@@ -6,6 +6,7 @@ import mrcontour as mrc
 import numpy as np
 import pytest
 from conftest import surface_of
+from contour_energy import points_of
 
 ROWS, COLUMNS = 9, 7
 
@@ -107,7 +108,35 @@ def test_reversing_the_contour_and_the_side_together_changes_nothing(seed, k):
     left, right = (mrc.Options(refinement=k, region_weight=3.0, region_side=side) for side in ("left", "right"))
     one = mrc.optimize(surface, given, options=left, region_density=density)
     two = mrc.optimize(surface, given[::-1], options=right, region_density=density)
+    assert set(points_of(one)) == set(points_of(two))
     assert one.ratio == pytest.approx(two.ratio, rel=1e-10)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("k", [0, 1])
+@pytest.mark.parametrize("denominator", ["length", "arcs"])
+def test_scaling_rigid_motion_and_reversal(realistic, k, denominator, rng):
+    """The density is per area and weighs in units of the scales: it stays when the mesh grows. Reversal takes the side
+    along; the other side alone is the other sign."""
+    _, mesh, contour = realistic
+    density = np.array([np.sin(5 * mesh.positions[face[0]]).sum() for face in mesh.faces])
+    size = 23.0 if denominator == "length" else 1.0
+
+    def optimize(mesh, contour, side="left", weight=8.0):
+        options = mrc.Options(
+            flow="harmonic", refinement=k, denominator=denominator, region_weight=weight, region_side=side
+        )
+        return mrc.optimize(surface_of(mesh), contour, options=options, region_density=density)
+
+    base = optimize(mesh, contour)
+    for other, factor in (
+        (optimize(mesh.moved(mesh.positions * 23.0), contour), size),
+        (optimize(meshes.rigidly_moved(mesh, rng), contour), 1.0),
+        (optimize(mesh, contour[::-1].copy(), side="right"), 1.0),
+        (optimize(mesh, contour, side="right", weight=-8.0), 1.0),
+    ):
+        assert set(points_of(other)) == set(points_of(base))
+        assert other.ratio * factor == pytest.approx(base.ratio, rel=1e-8)
 
 
 def test_what_is_enclosed_draws_and_repels():
@@ -123,6 +152,35 @@ def test_what_is_enclosed_draws_and_repels():
         rows[weight] = set((result.vertices // 8).tolist())
     assert rows[0.0] == {4}
     assert sorted([rows[-5.0], rows[5.0]], key=min) == [{2}, {6}]
+
+
+@pytest.mark.parametrize("height", [-0.6, 0.0, 0.5, 0.8])
+def test_on_a_closed_body_all_between_two_contours_is_counted(height):
+    """However far from both it lies: each contour parts a ball in two."""
+    mesh = meshes.icosphere(3)
+    surface, low = surface_of(mesh), -0.8
+    contours = [max(meshes.plane_contours(mesh, [0.0, 0.0, 1.0], z), key=len) for z in (low, height)]
+    density = 1 + mesh.positions[[face[0] for face in mesh.faces], 0]
+    centres = np.array([mesh.positions[list(face)].mean(axis=0)[2] for face in mesh.faces])
+    between = (density * areas(mesh))[(centres > low) & (centres <= height)].sum()
+    change = enclosed_change(surface, density, *contours, mrc.Options(region_weight=1.0))
+    assert change == pytest.approx(-between, rel=1e-10)
+
+
+@pytest.mark.parametrize("weight", [-0.05, -1.0])
+def test_a_contour_that_crosses_a_closed_body_is_measured_alike(weight):
+    mesh = meshes.icosphere(3)
+    groove = np.exp(-(((mesh.positions[:, [2]] - 0.8) / 0.12) ** 2))
+    mesh = mesh.moved(mesh.positions * (1 - 0.25 * groove))
+    surface, density = surface_of(mesh), np.ones(len(mesh.faces))
+    given = max(meshes.plane_contours(mesh, [0.0, 0.0, 1.0], -0.8), key=len)
+    options = mrc.Options(flow="harmonic", width=None, region_weight=weight)
+    result = mrc.optimize(surface, given, options=options, region_density=density)
+    assert result.positions[:, 2].mean() > 0.5
+    measured = mrc.measure(surface, result, options=options, scales=result.scales, region_density=density)
+    assert measured.ratio == pytest.approx(result.ratio, rel=1e-10)
+    again = mrc.optimize(surface, result, options=options, scales=result.scales, region_density=density)
+    assert again.initial_ratio == pytest.approx(result.ratio, rel=1e-10)
 
 
 def test_bad_densities():

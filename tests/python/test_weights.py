@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Weights of the energy (attractors, anchor, crease, feature clamp, ridges), against the independent solver."""
 
+from dataclasses import replace
+
 import meshes
 import mrcontour as mrc
 import numpy as np
 import pytest
-from conftest import surface_of
+from conftest import realistic_contours, surface_of
 from contour_energy import points_of
 from random_cases import Case, annulus, chain, check_optimum, check_same_graph, cylinder, random_energy, seeds, torus
 
@@ -76,17 +78,17 @@ ALL = {
 
 def optimize(mesh, contour, pulls, scale=1.0, **options):
     options = mrc.Options(**{"flow": "harmonic", "width": 5, **ALL, **options})
-    pulls = [(v, radius * scale, strength) for v, radius, strength in pulls]
+    pulls = [(v, radius * scale, strength, *(s * scale for s in sigma)) for v, radius, strength, *sigma in pulls]
     return mrc.optimize(surface_of(mesh), contour, options=options, attractors=pulls)
 
 
 @pytest.mark.parametrize("k", [0, 1])
 @pytest.mark.parametrize("denominator", ["length", "arcs"])
 def test_scaling_rigid_motion_and_reversal(realistic, k, denominator, rng):
-    """The attractors' radius scales along, band_distance is relative and stays."""
+    """The attractors' radius and sigma scale along, band_distance is relative and stays."""
     _, mesh, contour = realistic
     size, far = 41.0, float(np.ptp(mesh.positions)) / 3
-    pulls = [(int(contour[0]), far, 1.5), (int(contour[len(contour) // 2]), far, -1.0)]
+    pulls = [(int(contour[0]), far, 1.5), (int(contour[len(contour) // 2]), far, -1.0, far / 3)]
     options = {"refinement": k, "denominator": denominator}
     options["length_measure"] = "edges" if denominator == "arcs" else "arc"
     base = optimize(mesh, contour, pulls, **options)
@@ -99,6 +101,21 @@ def test_scaling_rigid_motion_and_reversal(realistic, k, denominator, rng):
     for other in (moved, backwards):
         assert set(points_of(other)) == set(points_of(base))
         assert other.objective == pytest.approx(base.objective, rel=1e-8)
+
+
+def test_band_distance_is_in_average_radii():
+    """It takes away the same faces at every size, and takes away some."""
+    cut = 0
+    for _, mesh, contour in realistic_contours():
+        bands = []
+        for size, distance in ((1.0, None), (1.0, 0.4), (41.0, 0.4), (1e-3, 0.4)):
+            surface = surface_of(mesh.moved(mesh.positions * size))
+            options = mrc.Options(width=6, band_distance=distance)
+            bands.append(set(mrc.band(surface, contour, options=options).tolist()))
+        assert bands[1] == bands[2] == bands[3]
+        assert bands[1] <= bands[0]
+        cut += bands[1] < bands[0]
+    assert cut >= 20
 
 
 def test_measure_is_the_result_after_iterations(realistic):
@@ -130,3 +147,21 @@ def test_attraction_and_repulsion(realistic):
 
     amounts = [felt(strength) for strength in (-5.0, 0.0, 5.0, 50.0)]
     assert (np.diff(amounts) >= -1e-12 * max(map(abs, amounts))).all()
+
+
+def inside_out(mesh):
+    """The same surface, seen from its other side: convex becomes concave."""
+    return replace(mesh, faces=tuple(face[::-1] for face in mesh.faces), triangles=mesh.triangles[:, ::-1].copy())
+
+
+@pytest.mark.parametrize("k", [0, 1])
+@pytest.mark.parametrize("features", [("ridge", "valley"), ("valley", "ridge")])
+def test_a_ridge_is_a_valley_of_the_other_side(realistic, features, k):
+    _, mesh, contour = realistic
+    one, two = (
+        mrc.optimize(surface_of(m), contour, options=mrc.Options(flow="harmonic", feature=feature, refinement=k))
+        for m, feature in zip((mesh, inside_out(mesh)), features, strict=True)
+    )
+    assert points_of(one) == points_of(two)
+    assert two.ratio == pytest.approx(one.ratio, rel=1e-9, abs=1e-12 / one.scales.L0)
+    assert two.scales.kappa_0 == pytest.approx(one.scales.kappa_0, rel=1e-9)

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The thesis's figures: runs their searches through the native module, and draws each before and after.
+
+One picture for every search, and `overview.png` with all of them. What the numbers of a figure have to be is asserted
+by the tests.
+"""
+
+import re
+import traceback
+
+import blender_meshes
+import bpy
+import numpy as np
+import pictures
+import report
+import stamps
+from curves import mean_distance
+from figures import FIGURES
+
+
+def run(output, only, mrc):
+    """The figures wanted; gives the lines of the table and the failures."""
+    wanted = [name for name in FIGURES if only in (None, "figures", name)]
+    rows, failures, drawn = [], [], []
+    for name in wanted:
+        try:
+            rows += run_figure(FIGURES[name](), output, mrc, drawn)
+        except Exception as error:  # the others shall still be run; reported below, and the run fails
+            traceback.print_exc()
+            failures.append(f"figure {name}: {error}")
+    if drawn and len(wanted) == len(FIGURES):
+        draw_overview(output / "overview.png", drawn)
+    return rows, failures
+
+
+def run_figure(figure, output, mrc, drawn):
+    """All searches of a figure, with their pictures, which are added to `drawn`; gives its lines of the table."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    ob = blender_meshes.new_object(f"figure {figure.name}", figure.positions, figure.faces)
+    surface = native_surface(figure, mrc)
+    results = [optimize(surface, search, mrc) for search in figure.searches]
+    comparisons = [compare(figure, ob.data, *pair, surface, mrc) for pair in zip(figure.searches, results)]
+    shown = [curve for comparison in comparisons for curve in (*comparison.given, *comparison.found)]
+    for number, comparison in enumerate(comparisons, 1):
+        comparison.in_view = shown  # one view for the whole figure
+        name = re.sub(r"\W+", "_", f"{number} {comparison.title}")
+        drawn.append(output / f"{figure.name}.{name}.png")
+        pictures.draw_if_changed(drawn[-1], ob, figure.up, comparison)
+    return [line(figure, ob.data, *each) for each in zip(figure.searches, results, comparisons)]
+
+
+def native_surface(figure, mrc):
+    offsets = np.cumsum([0, *map(len, figure.faces)], dtype=np.int32)
+    return mrc.Surface(np.ascontiguousarray(figure.positions), offsets, np.concatenate(figure.faces).astype(np.int32))
+
+
+def optimize(surface, search, mrc):
+    options = mrc.Options(**search.options)
+    result = mrc.optimize(surface, search.given, closed=search.closed, options=options, **search.wishes)
+    # A given contour without the required elements is no measure for those that have them.
+    if result.status != "constrained" and result.objective > result.initial_objective:
+        raise RuntimeError(f"the objective rose from {result.initial_objective} to {result.objective}: {search.title}")
+    return result
+
+
+def compare(figure, mesh, search, result, surface, mrc):
+    """A search and its result in a picture."""
+    found = blender_meshes.surface_curve(mesh, result.edge_vertices, result.edge_parameters, search.closed)
+    outcome = "left as it is" if result.status == "unchanged" else "contour found"
+    return pictures.Comparison(
+        search.title,
+        f"given contour: ratio {result.initial_ratio:.3g}",
+        f"{outcome}: ratio {result.ratio:.3g}, salience {result.salience:.3g}",
+        [blender_meshes.curve(mesh, search.given, search.closed)],
+        [found],
+        mrc.band(surface, search.given, closed=search.closed, options=mrc.Options(**search.options)),
+        [blender_meshes.curve(mesh, truth, is_loop(mesh, truth)) for truth in figure.truths],
+        legend="faces searched (green)" if result.statistics["iterations"] == 1 else "faces searched first (green)",
+        heading=f"Figure {figure.name}: {figure.title}",
+        held=search.wishes.get("required_vertices", ()),
+    )
+
+
+def is_loop(mesh, vertices):
+    """True where an edge leads from the last vertex back to the first."""
+    return sorted((vertices[0], vertices[-1])) in blender_meshes.edge_pairs(mesh).tolist()
+
+
+def line(figure, mesh, search, result, comparison):
+    """The search's line of the table."""
+    wishes = {name.replace("_", " "): len(elements) for name, elements in search.wishes.items()}
+    away = [mean_distance(comparison.found[0], truth) for truth in comparison.truths]
+    off = min(away) / blender_meshes.mean_edge_length(mesh) if away else None
+    settings = {**search.options, **wishes}
+    return report.row(f"figure {figure.name}", search.title, len(mesh.polygons), settings, result, off)
+
+
+def draw_overview(path, drawn):
+    """All the pictures at half their size."""
+    made_of = stamps.stamp([], [picture.with_suffix(".sha256").read_text() for picture in drawn])
+    stamps.draw_if_changed(path, made_of, lambda: pictures.draw_sheet(path, drawn))

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "index_map.h"
+
+#include <mrc/surface.h>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+namespace mrc {
+
+/// The curvature tensor of eq. 3.4 at single vertices: F = 1 / |B| sum beta(e) |e in B| e e^T, with B the disk about the vertex.
+///
+/// The disk is what hangs together with the vertex along the surface inside a ball, so that the other side of a thin plate stays
+/// out. What belongs to an edge or to a triangle alone is kept, since the disks of neighbours overlap.
+class DiskTensors {
+  public:
+    DiskTensors(const Surface& surface, double radius) : surface_(surface), radius_(radius) {}
+
+    Eigen::Matrix3d at(int vertex);
+    /// The signed angle between the normals at a half-edge's edge, in radians, negative where concave; 0 at borders.
+    double dihedral(int halfedge) { return edges_[edge_number(halfedge)].angle; }
+
+  private:
+    using Vec2 = Eigen::Vector2d;
+    using Symmetric = Eigen::Matrix<double, 6, 1>;  // xx, yy, zz, xy, xz, yz
+
+    struct Edge {
+        Vec3 start, way;
+        double inverse_length2;  // 0 where it has no length
+        double angle;
+        Symmetric bending;  // angle times length times e e^T
+    };
+    struct Triangle {
+        int id;
+        Vec3 origin, x, y, normal;  // its own frame, in its first corner
+        Vec2 second, third;         // the other corners in it
+        double doubled_area;
+        std::array<int, 3> edges, neighbours;  // numbers; a neighbour not yet met is `unknown`
+        std::array<bool, 3> forward;           // whether the side runs along with its edge
+    };
+    /// The part of an edge inside the ball under way, as shares of its way; empty where enter = leave.
+    struct Span {
+        int disk = 0;
+        double enter = 0.0, leave = 0.0;
+    };
+    static constexpr int unknown = -2, none = -1;
+
+    const Surface& surface_;
+    double radius_;
+    IndexMap edge_numbers_, triangle_numbers_;
+    std::vector<Edge> edges_;
+    std::vector<Span> spans_;  // of edges_
+    std::vector<Triangle> triangles_;
+    std::vector<int> met_;   // of triangles_: the last disk that it was met in
+    std::vector<int> disk_;  // the triangles of the disk under way
+    int disk_count_ = 0;
+
+    int edge_number(int halfedge);
+    int triangle_number(int triangle);
+    int neighbour(int number, int side);
+    double angle_at(int halfedge) const;
+    void meet(int number);
+    bool cut(int edge, const Vec3& centre, Symmetric& sum);
+    double area_inside(const Triangle& triangle, const Vec3& centre) const;
+};
+
+}  // namespace mrc
