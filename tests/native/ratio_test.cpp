@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -205,12 +206,12 @@ TEST(Ratio, bounds_save_passes_over_one_search_a_source) {
     EXPECT_LT(ours, thesis);
 }
 
-/// Two pairs: first a chain of diamonds whose many paths are all bad and alike, then three paths of which the best lies above the
-/// line through the other two.
+/// Two pairs: first a chain of diamonds whose many paths are bad, nearly alike and hard to tell apart; then three paths of which
+/// the best lies above the line through the other two. A pass from both sources at once sees nothing of the second pair.
 WeightedGraph distracting_graph() {
     WeightedGraph graph;
     std::mt19937 random(7);
-    std::uniform_real_distribution<double> weight(-0.05, 0.05);
+    std::uniform_real_distribution<double> noise(-1e-3, 1e-3), length(0.04, 0.07);
     const auto add_node = [&] {
         graph.first_arc.push_back(static_cast<int>(graph.from.size()));
         return static_cast<int>(graph.first_arc.size()) - 1;
@@ -224,18 +225,17 @@ WeightedGraph distracting_graph() {
     int last = bad;
     for (int diamond = 0; diamond < 40; ++diamond) {
         const int upper = add_node();
-        add_arc(last, 0.2 + weight(random), 0.05);
+        add_arc(last, 0.17 + noise(random), length(random));
         const int lower = add_node();
-        add_arc(last, 0.2 + weight(random), 0.06 + weight(random) / 10);
+        add_arc(last, 0.17 + noise(random), length(random));
         const int next = add_node();
         add_arc(upper, 0.0, 0.01);
         add_arc(lower, 0.0, 0.01);
         last = next;
     }
     const int end = add_node();
-    add_arc(good, 0.0, 1.0);
-    add_arc(good, -6.0, 3.0);
-    add_arc(good, -2.9, 2.0);
+    add_arc(bad, -10.0, 1.0);
+    for (const int path : {0, 1, 2}) add_arc(good, std::array{0.0, -6.0, -2.9}[path], std::array{1.0, 3.0, 2.0}[path]);
     graph.first_arc.push_back(static_cast<int>(graph.from.size()));
     graph.sources = {{bad}, {good}};
     graph.destinations = {{last}, {end}};
