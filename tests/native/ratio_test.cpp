@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "karp_search.h"
 #include "thesis_search.h"
 
 #include <mrc/ratio.h>
@@ -162,7 +163,21 @@ TEST_P(RandomGraphs, optimum_by_counts_is_that_of_brute_force) {
         ASSERT_EQ(result.found, std::isfinite(expected));
         if (result.found) {
             EXPECT_NEAR(result.objective, expected, 1e-12 * (1.0 + std::abs(expected))) << "seed " << seed;
+            EXPECT_NEAR(mrc_test::karp_search(graph, objective), expected, 1e-12 * (1.0 + std::abs(expected)));
         }
+    }
+}
+
+TEST_P(RandomGraphs, optimum_by_counts_is_that_of_karps_programme_on_larger_graphs) {
+    for (unsigned seed = 7000; seed < 7060; ++seed) {
+        WeightedGraph graph = random_graph(seed, GetParam(), 10, 25);
+        std::ranges::fill(graph.g, 1.0);
+        const mrc::Objective objective{0.5 + seed % 3, 0.004 * (1.0 + seed % 7), seed % 2 ? 9.0 : 0.0};
+        const double expected = mrc_test::karp_search(graph, objective);
+        const mrc::RatioResult result = mrc::minimum_ratio(graph, {.objective = objective, .guess = {}});
+        ASSERT_EQ(result.found, std::isfinite(expected));
+        EXPECT_NEAR(result.objective, expected, 1e-12 * (1.0 + std::abs(expected))) << "seed " << seed;
+        EXPECT_NEAR(result.lower_bound, expected, 1e-12 * (1.0 + std::abs(expected)));
     }
 }
 
