@@ -51,26 +51,53 @@ void add_torus(Arrays& arrays, int faces, double away) {
     }
 }
 
-}  // namespace
+/// The rows and columns of a tube whose middle ring has a band of so many faces, about as wide as long.
+struct Shape {
+    int width, columns, rows;
+};
 
-Case tube_case(int band_faces, int refinement, int more_faces) {
+Shape shape_of(int band_faces) {
     const int width = std::max(2, static_cast<int>(std::lround(std::sqrt(band_faces / 16.0))));
-    const int columns = band_faces / (4 * width), rows = 2 * width + 9;
-    Arrays arrays;
-    add_tube(arrays, rows, columns);
-    if (more_faces > 0) add_torus(arrays, more_faces, 10.0 * more_faces);
+    return {width, band_faces / (4 * width), 2 * width + 9};
+}
+
+mrc::Options options_for(const Shape& shape, int refinement) {
+    mrc::Options options;
+    options.width = shape.width;
+    options.refinement = refinement;
+    return options;
+}
+
+/// Round the tube, with a step up and down every four columns.
+mrc::Contour jagged_ring(int lower, int columns) {
     std::vector<int> ring;
-    int row = rows / 2;
+    int row = lower;
     for (int column = 0; column < columns; ++column) {
         ring.push_back(row * columns + column);
-        const int next = rows / 2 + (column + 1 < columns && column % 4 < 2 ? 1 : 0);
+        const int next = column + 1 < columns && column % 4 < 2 ? lower + 1 : lower;
         if (next != row) ring.push_back(next * columns + column);
         row = next;
     }
-    mrc::Options options;
-    options.width = width;
-    options.refinement = refinement;
-    return {mrc::Surface(arrays.view()), mrc::vertex_contour(ring), options};
+    return mrc::vertex_contour(ring);
+}
+
+}  // namespace
+
+Case tube_case(int band_faces, int refinement, int more_faces) {
+    const Shape shape = shape_of(band_faces);
+    Arrays arrays;
+    add_tube(arrays, shape.rows, shape.columns);
+    if (more_faces > 0) add_torus(arrays, more_faces, 10.0 * more_faces);
+    return {mrc::Surface(arrays.view()), jagged_ring(shape.rows / 2, shape.columns), options_for(shape, refinement)};
+}
+
+Row contours_in_a_row(int count, int band_faces, int refinement) {
+    const Shape shape = shape_of(band_faces);
+    Arrays arrays;
+    add_tube(arrays, count * shape.rows, shape.columns);
+    std::vector<mrc::Contour> contours;
+    for (int i = 0; i < count; ++i) contours.push_back(jagged_ring(i * shape.rows + shape.rows / 2, shape.columns));
+    return {mrc::Surface(arrays.view()), contours, options_for(shape, refinement)};
 }
 
 Arrays torus_arrays(int faces) {

@@ -18,6 +18,14 @@ struct Case {
 /// part of the mesh and far away.
 Case tube_case(int band_faces, int refinement, int more_faces = 0);
 
+/// A tube with room for so many contours, each with a band of about so many faces out of reach of the others'.
+struct Row {
+    mrc::Surface surface;
+    std::vector<mrc::Contour> contours;
+    mrc::Options options;
+};
+Row contours_in_a_row(int count, int band_faces, int refinement);
+
 /// The arrays of a torus of about so many triangles, in file order.
 struct Arrays {
     std::vector<double> positions;
