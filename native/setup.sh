@@ -13,7 +13,7 @@ mkdir -p "$build/logs"
 
 build_packages=(g++ cmake ninja-build ccache libeigen3-dev libopenmesh-dev python3-dev python3-venv)
 blender_packages=(blender python3-numpy libegl1)  # the last two it only recommends: arrays, and rendering without a screen
-python_requirements=("pybind11>=3.0,<4" "scikit-build-core>=0.11,<1" "numpy>=1.24,<3" "pytest>=8,<10" "hypothesis>=6.100,<7" "ruff>=0.17,<0.18")
+python_requirements=("pybind11>=3.0,<4" "scikit-build-core>=0.11,<1" "numpy>=1.24,<3" "scipy>=1.10,<2" "pytest>=8,<10" "hypothesis>=6.100,<7" "ruff>=0.17,<0.18")
 
 say() { printf '== %s\n' "$*"; }
 

@@ -19,8 +19,6 @@
 namespace mrc {
 namespace {
 
-using Mat3 = Eigen::Matrix3d;
-
 /// Angle of a polygon at its corner i, in radians.
 double corner_angle(const Surface& surface, std::span<const int> face, std::size_t i) {
     const std::size_t n = face.size();
@@ -72,27 +70,29 @@ class NearGraph {
             first_link_.push_back(-1);
             distance_.push_back(0.0);
             met_in_.push_back(0);
+            queued_.push_back(0);
         }
         return n;
     }
     int vertex(int number) const { return vertices_[number]; }
 
-    /// Calls visit(number, distance) for the vertices within `limit` of one, from near to far.
+    /// Calls visit(number, distance) for the vertices within `limit` of one. The distances are corrected until none falls any more,
+    /// which over so few edges of like lengths takes less time than a heap.
     template <class Visit>
     void for_each_within(int start, double limit, Visit&& visit) {
         ++search_;
-        heap_.clear();
+        near_.clear();
+        queue_.clear();
         reach(start, 0.0);
-        while (!heap_.empty()) {
-            std::ranges::pop_heap(heap_, std::greater<>());
-            const auto [distance, n] = heap_.back();
-            heap_.pop_back();
-            if (distance > distance_[n]) continue;
-            visit(n, distance);
+        for (std::size_t i = 0; i < queue_.size(); ++i) {
+            const int n = queue_[i];
+            queued_[n] = 0;
+            const double here = distance_[n];
             for (const Link* link = links(n); link->to >= 0; ++link) {
-                if (distance + link->length <= limit) reach(link->to, distance + link->length);
+                if (here + link->length <= limit) reach(link->to, here + link->length);
             }
         }
+        for (const int n : near_) visit(n, distance_[n]);
     }
 
   private:
@@ -107,14 +107,19 @@ class NearGraph {
     std::vector<double> distance_;
     std::vector<int> met_in_;  // the search that distance_ belongs to
     int search_ = 0;
-    std::vector<std::pair<double, int>> heap_;
+    std::vector<int> near_, queue_;  // of the search under way: all vertices met, and those whose neighbours are to be reached
+    std::vector<char> queued_;
 
     void reach(int n, double distance) {
-        if (met_in_[n] == search_ && distance >= distance_[n]) return;
+        if (met_in_[n] != search_) {
+            near_.push_back(n);
+        } else if (distance >= distance_[n]) {
+            return;
+        }
         met_in_[n] = search_;
         distance_[n] = distance;
-        heap_.emplace_back(distance, n);
-        std::ranges::push_heap(heap_, std::greater<>());
+        if (!queued_[n]) queue_.push_back(n);
+        queued_[n] = 1;
     }
 
     const Link* links(int n) {
@@ -157,7 +162,7 @@ class CurvatureField::Impl {
     DiskTensors disks_;
     IndexMap asked_;
     std::deque<VertexCurvature> curvatures_;  // a deque, so that references stay
-    std::vector<Mat3> tensors_;               // by number in near_
+    std::vector<Symmetric> tensors_;          // by number in near_
     std::vector<char> has_tensor_;
 
     Vec3 vertex_normal(int vertex) const {
@@ -172,7 +177,7 @@ class CurvatureField::Impl {
     }
 
     /// The tensor of a vertex by its number in near_.
-    const Mat3& tensor(int n) {
+    const Symmetric& tensor(int n) {
         if (n >= static_cast<int>(tensors_.size())) {
             tensors_.resize(2 * n + 1);
             has_tensor_.resize(2 * n + 1, 0);
@@ -185,10 +190,10 @@ class CurvatureField::Impl {
     }
 
     /// The tensors round a vertex, averaged term by term (Alliez et al. 2003).
-    Mat3 smoothed(int vertex) {
+    Symmetric smoothed(int vertex) {
         const int start = near_.number(vertex);
         if (sigma_ == 0.0) return tensor(start);
-        Mat3 sum = Mat3::Zero();
+        Symmetric sum = Symmetric::Zero();
         double weights = 0.0;
         // On grids neighbours lie at just 3 sigma: rounding must not decide.
         near_.for_each_within(start, 3.0 * sigma_ * (1.0 + 1e-9), [&](int n, double d) {
@@ -200,12 +205,12 @@ class CurvatureField::Impl {
     }
 
     /// Eigenvalues in the tangent plane. The eigenvector along a crease belongs to the curvature across it: the two are swapped.
-    VertexCurvature principal(const Mat3& tensor, const Vec3& normal) const {
+    VertexCurvature principal(const Symmetric& tensor, const Vec3& normal) const {
         Eigen::Matrix<double, 3, 2> basis;
         basis.col(0) = normal.unitOrthogonal();
         basis.col(1) = normal.cross(basis.col(0));
         Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
-        solver.computeDirect(basis.transpose() * tensor * basis);
+        solver.computeDirect(basis.transpose() * full(tensor) * basis);
         const auto& values = solver.eigenvalues();
         VertexCurvature result;
         result.normal = normal;

@@ -32,7 +32,7 @@ Vec3 triangle_normal(const Surface& surface, int triangle) {
 
 }  // namespace
 
-Eigen::Matrix3d DiskTensors::at(int vertex) {
+Symmetric DiskTensors::at(int vertex) {
     const Vec3& centre = surface_.position(vertex);
     ++disk_count_;
     disk_.clear();
@@ -47,9 +47,7 @@ Eigen::Matrix3d DiskTensors::at(int vertex) {
         area += area_inside(triangles_[disk_[i]], centre);
     }
     if (area > 0.0) sum /= area;
-    Eigen::Matrix3d tensor;
-    tensor << sum[0], sum[3], sum[4], sum[3], sum[1], sum[5], sum[4], sum[5], sum[2];
-    return tensor;
+    return sum;
 }
 
 void DiskTensors::meet(int number) {

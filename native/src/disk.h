@@ -12,6 +12,15 @@
 
 namespace mrc {
 
+/// A symmetric matrix as xx, yy, zz, xy, xz, yz.
+using Symmetric = Eigen::Matrix<double, 6, 1>;
+
+inline Eigen::Matrix3d full(const Symmetric& s) {
+    Eigen::Matrix3d matrix;
+    matrix << s[0], s[3], s[4], s[3], s[1], s[5], s[4], s[5], s[2];
+    return matrix;
+}
+
 /// The curvature tensor of eq. 3.4 at single vertices: F = 1 / |B| sum beta(e) |e in B| e e^T, with B the disk about the vertex.
 ///
 /// The disk is what hangs together with the vertex along the surface inside a ball, so that the other side of a thin plate stays
@@ -20,13 +29,12 @@ class DiskTensors {
   public:
     DiskTensors(const Surface& surface, double radius) : surface_(surface), radius_(radius) {}
 
-    Eigen::Matrix3d at(int vertex);
+    Symmetric at(int vertex);
     /// The signed angle between the normals at a half-edge's edge, in radians, negative where concave; 0 at borders.
     double dihedral(int halfedge) { return edges_[edge_number(halfedge)].angle; }
 
   private:
     using Vec2 = Eigen::Vector2d;
-    using Symmetric = Eigen::Matrix<double, 6, 1>;  // xx, yy, zz, xy, xz, yz
 
     struct Edge {
         Vec3 start, way;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -78,9 +79,31 @@ class GraphBuilder {
         }
     }
 
-    /// Points that another contour may come to are closed, but for the contour's own.
+    /// Where another contour lies or may come to is closed, but for the contour's own points and segments.
     void keep_off_others() {
         if (territory_.closed_vertex.empty()) return;
+        std::vector<char> closed = closed_points();
+        std::set<std::pair<int, int>> own_segments;
+        for (const Contour& own : territory_.own) {
+            std::vector<int> points;
+            for (const SurfacePoint& p : own.points) points.push_back(ambient_.point_at(patch_, p));
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                const int a = points[i], b = points[(i + 1) % points.size()];
+                if (a >= 0) closed[a] = 0;
+                if (b >= 0 && (own.closed || i + 1 < points.size())) own_segments.insert(std::minmax(a, b));
+            }
+        }
+        std::set<int> walls;  // by the surface's edges
+        for (std::size_t e = 0; e < territory_.wall.size(); ++e) {
+            if (territory_.wall[e]) walls.insert(surface_.edge(std::max(patch_.halfedge[2 * e], patch_.halfedge[2 * e + 1])));
+        }
+        for (Segment& s : ambient_.segments) {
+            const bool crossed = s.halfedge >= 0 && walls.contains(surface_.edge(s.halfedge));
+            if ((closed[s.a] || closed[s.b] || crossed) && !own_segments.contains(std::minmax(s.a, s.b))) s.walkable = false;
+        }
+    }
+
+    std::vector<char> closed_points() const {
         std::vector<char> closed(ambient_.point_count(), 0);
         for (std::size_t v = 0; v < patch_.vertex.size(); ++v) {
             if (ambient_.point_of_vertex[v] >= 0) closed[ambient_.point_of_vertex[v]] = territory_.closed_vertex[v];
@@ -89,10 +112,7 @@ class GraphBuilder {
             const int first = ambient_.first_point_of_edge[e];
             for (int i = 0; first >= 0 && i < ambient_.steiner; ++i) closed[first + i] = territory_.closed_edge[e];
         }
-        for (const SurfacePoint& own : territory_.own) {
-            if (const int p = ambient_.point_at(patch_, own); p >= 0) closed[p] = 0;
-        }
-        for (Segment& s : ambient_.segments) s.walkable &= !closed[s.a] && !closed[s.b];
+        return closed;
     }
 
     /// Each segment becomes the chord that the flow runs along; a level one becomes two, by rank; of equal rank, none.

@@ -99,11 +99,15 @@ void Optimization::grow(Partition* partition, int number) {
     if (!patch_) return;
     territory_ = {};
     if (partition) {
-        territory_ = partition->territory(number, *patch_);
-        for (const Contour& own : {given_, result_.contour}) {
-            const Contour points = expressed(own, steiner_);
-            territory_.own.insert(territory_.own.end(), points.points.begin(), points.points.end());
+        result_.held_back_by = partition->entangled_with(number, result_.contour);
+        if (!result_.held_back_by.empty()) {
+            patch_.reset();
+            if (result_.status == Status::unchanged)
+                result_.reason = "no band can grow: its faces are also crossed by " + numbered(result_.held_back_by);
+            return;
         }
+        territory_ = partition->territory(number, *patch_);
+        territory_.own = {expressed(given_, steiner_), expressed(result_.contour, steiner_)};
     }
     band_ = stopwatch_.time("band", [&] { return grow_band(surface_, *patch_, phase_options_, wishes_, territory_); });
 }

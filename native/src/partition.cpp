@@ -20,6 +20,29 @@ std::vector<int> polygon_vertices(const Patch& patch, int polygon) {
     return vertices;
 }
 
+/// The surface's number of the edge or diagonal between two vertices.
+int edge_between(const Surface& surface, int a, int b) {
+    for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
+        for (const int h : surface.outgoing(from)) {
+            if (surface.to(h) == to) return surface.edge(h);
+        }
+    }
+    return -1;
+}
+
+/// The faces inside which a contour runs, also where that is along a diagonal.
+std::vector<int> crossed_faces(const Surface& surface, const Contour& contour) {
+    std::vector<int> faces;
+    const std::size_t count = contour.points.size();
+    for (std::size_t i = 0; i + (contour.closed ? 0 : 1) < count; ++i) {
+        const SurfacePoint &p = contour.points[i], &q = contour.points[(i + 1) % count];
+        const SharedEdge edge(p, q);
+        if (edge.a >= 0 && surface.real_edge(edge.a, edge.b)) continue;
+        faces.push_back(surface.triangle_face(triangle_of_segment(surface, p, q)));
+    }
+    return faces;
+}
+
 }  // namespace
 
 void Partition::add(Owners& owners, int element, int contour) {
@@ -45,26 +68,25 @@ void Partition::occupy(int contour, const Contour& where) {
     for (const SurfacePoint& p : where.points) {
         if (p.is_vertex()) {
             add(vertices_, p.a, contour);
-            continue;
-        }
-        for (const int h : surface_.outgoing(p.a)) {
-            if (surface_.to(h) == p.b) add(edges_, surface_.edge(h), contour);
-        }
-        for (const int h : surface_.outgoing(p.b)) {
-            if (surface_.to(h) == p.a) add(edges_, surface_.edge(h), contour);
+        } else {
+            add(edges_, edge_between(surface_, p.a, p.b), contour);
         }
     }
     for (std::size_t i = 0; i + (where.closed ? 0 : 1) < count; ++i) {
-        const SurfacePoint &p = where.points[i], &q = where.points[(i + 1) % count];
-        const SharedEdge edge(p, q);
-        const int halfedge =
-            edge.a < 0 ? -1 : std::max(surface_.find_halfedge(edge.a, edge.b), surface_.find_halfedge(edge.b, edge.a));
-        if (halfedge >= 0) {
-            add(edges_, surface_.edge(halfedge), contour);
-        } else {
-            add(faces_, surface_.triangle_face(triangle_of_segment(surface_, p, q)), contour);
-        }
+        const SharedEdge edge(where.points[i], where.points[(i + 1) % count]);
+        if (edge.a >= 0 && surface_.real_edge(edge.a, edge.b)) add(edges_, edge_between(surface_, edge.a, edge.b), contour);
     }
+    for (const int face : crossed_faces(surface_, where)) add(faces_, face, contour);
+}
+
+std::vector<int> Partition::entangled_with(int contour, const Contour& where) const {
+    std::set<int> others;
+    for (const int face : crossed_faces(surface_, where)) {
+        const auto owners = owners_of(faces_, face);
+        others.insert(owners.begin(), owners.end());
+    }
+    others.erase(contour);
+    return {others.begin(), others.end()};
 }
 
 void Partition::claim(int contour, const Patch& patch) {

@@ -26,6 +26,8 @@ class Partition {
     void occupy(int contour, const Contour& where);
     /// The polygons that a contour's band might take.
     void claim(int contour, const Patch& patch);
+    /// The other contours that run through the same faces as this one: it cannot move without passing them.
+    std::vector<int> entangled_with(int contour, const Contour& where) const;
     /// `refused` and `wall`, once all have occupied and claimed.
     Territory territory(int contour, const Patch& patch) const;
 

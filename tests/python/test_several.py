@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from conftest import surface_of
 from contour_checks import crossings, meetings
-from contour_energy import points_of, vertex
+from contour_energy import UNITS, point_on, points_of, vertex
 
 FLOWS = ("harmonic", "gates", "arc_length")
 
@@ -176,6 +176,68 @@ def test_both_reach_the_same_groove_alone_and_one_together():
     assert abs(near.positions[:, 2] / 0.2 - 20).max() < 1.5
     assert far.positions[:, 2].max() < near.positions[:, 2].min()
     assert far.held_back_by == (1,)
+
+
+# ---- across faces
+
+
+def level_line(mesh, values, level):
+    """The closed line on which values given at the vertices are at a level, as points on edges and diagonals."""
+    following = {}
+    for triangle in mesh.triangles.tolist():
+        crossing = {}
+        for a, b in zip(triangle, triangle[1:] + triangle[:1], strict=True):
+            if (values[a] > level) != (values[b] > level):
+                share = round(40 * (level - values[a]) / (values[b] - values[a])) / 40
+                crossing[values[a] > level] = point_on(a, b, share)
+        if crossing:
+            following[crossing[True]] = crossing[False]
+    line = [next(iter(following))]
+    while following[line[-1]] != line[0]:
+        line.append(following[line[-1]])
+    return np.array([p[:2] for p in line], dtype=np.int32), np.array([p[2] / UNITS for p in line])
+
+
+def grooved_tube():
+    rows, columns = 13, 24
+    radius = 1 - 0.3 * np.exp(-(((np.arange(rows) - 5) / 1.5) ** 2))
+    return meshes.tube(radius, columns, step=0.3, rng=np.random.default_rng(1), split_share=1.0)
+
+
+@pytest.mark.parametrize("k", [0, 1])
+def test_a_contour_does_not_jump_over_one_in_the_same_faces(k):
+    """Alone both would go down to row 5. The upper one has row 6 as its neighbour along edges: below the other one."""
+    mesh = grooved_tube()
+    surface, options = surface_of(mesh), mrc.Options(width=3, iterations=2, refinement=k)
+    rows = mesh.positions[:, 2] / 0.3
+    given = [level_line(mesh, rows, level) for level in (6.4, 6.2)]
+    for edge_vertices, edge_parameters in given:
+        alone = mrc.optimize(surface, edge_vertices=edge_vertices, edge_parameters=edge_parameters, options=options)
+        assert abs(alone.positions[:, 2] / 0.3 - 5).max() < 0.5
+    for result, other in zip(mrc.optimize_all(surface, given, options=options), (1, 0), strict=True):
+        assert (result.status, result.held_back_by) == ("unchanged", (other,))
+        assert f"contour {other}" in result.reason
+    above, below = mrc.optimize_all(surface, [level_line(mesh, rows, 7.4), given[1]], options=options)
+    assert below.positions[:, 2].max() < above.positions[:, 2].min()
+    assert meetings(mesh, points_of(above), points_of(below)) == []
+
+
+@pytest.mark.parametrize("k", [0, 1])
+def test_an_edge_that_another_contour_crosses_is_closed(k):
+    """A small loop round a vertex of row 6, which the neighbour along edges of a loop round the tube passes."""
+    mesh = grooved_tube()
+    surface, options = surface_of(mesh), mrc.Options(width=3, iterations=2, refinement=k)
+    at = 6 * 24 + 5
+    near = np.where(np.arange(len(mesh.positions)) == at, 1.0, 0.0)
+    around = mesh.positions[:, 2] / 0.3 - 0.8 * near  # the level line of 6 - 0.3 goes round above the vertex
+    given = [level_line(mesh, around, 5.7), level_line(mesh, near, 0.9)]
+    assert meetings(mesh, *(as_points(contour) for contour in given)) == []
+    results = mrc.optimize_all(surface, given, options=options)
+    assert meetings(mesh, *(points_of(result) for result in results)) == []
+
+
+def as_points(contour):
+    return [point_on(a, b, t) for (a, b), t in zip(contour[0].tolist(), contour[1].tolist(), strict=True)]
 
 
 # ---- open chains
