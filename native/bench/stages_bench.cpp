@@ -50,7 +50,7 @@ void optimize_all(State& state) {
     mrc_bench::Row row = mrc_bench::contours_in_a_row(16, 1000, 1);
     row.options.threads = static_cast<int>(state.range(0));
     std::vector<mrc::Task> tasks;
-    for (const mrc::Contour& contour : row.contours) tasks.push_back({contour, {}, nullptr});
+    for (const mrc::Contour& contour : row.contours) tasks.push_back({contour, {}, {}});
     for (auto _ : state) benchmark::DoNotOptimize(mrc::optimize_all(row.surface, tasks, row.options));
 }
 

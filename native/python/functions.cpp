@@ -28,7 +28,7 @@ PyResult optimize(const Surface& surface, const py::object& vertices, bool close
     return describe(surface, mrc::optimize(surface, contour, options, wishes, scales, report));
 }
 
-std::vector<PyResult> optimize_all(const Surface& surface, const py::sequence& contours, const py::object& closed,
+std::vector<PyResult> optimize_all(const Surface& surface, const py::iterable& contours, const py::object& closed,
                                    const Options& options, const py::object& required_vertices, const py::object& required_edges,
                                    const py::iterable& attractors, const py::object& barriers, const py::object& region_density,
                                    const py::object& scales, const py::object& progress) {
@@ -243,7 +243,7 @@ void bind_functions(py::module_& module) {
                "(n,) int32: the faces that optimize searches first, ascending.");
     module.def("search_space", &search_space, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true,
                py::arg("options") = defaults, py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
-               "All that optimize builds before it searches, as a dict of arrays: for display and tests.\n\n"
+               "All that one search with these width and refinement builds, as a dict of arrays: for display and tests.\n\n"
                "faces, vertices, side, round, left, right, strips, triangles: the band. edges, increments, diagonal: the flow.\n"
                "points, parameters, nodes, arcs, f, g, cut, level: the graph, nodes as pairs of vertices (refined: of points) in "
                "topological order.");

@@ -49,7 +49,10 @@ std::vector<py::object> one_each(const py::object& value, bool single, std::size
     return values;
 }
 
-bool is_list(const py::handle& value) { return py::isinstance<py::sequence>(value) || py::isinstance<py::array>(value); }
+bool is_list(const py::handle& value) {
+    if (py::isinstance<py::array>(value)) return py::reinterpret_borrow<py::array>(value).ndim() > 0;
+    return py::isinstance<py::sequence>(value) && !py::isinstance<py::str>(value);
+}
 
 /// Lists nested to `depth`: ids are one deep, vertex pairs two.
 bool is_nested(const py::object& value, int depth) {
@@ -60,10 +63,10 @@ bool is_nested(const py::object& value, int depth) {
     return false;
 }
 
-const mrc::Scales* to_scales(const py::object& scales) {
-    if (scales.is_none()) return nullptr;
+std::optional<mrc::Scales> to_scales(const py::object& scales) {
+    if (scales.is_none()) return std::nullopt;
     if (!py::isinstance<mrc::Scales>(scales)) throw py::type_error("scales must be the Scales of an earlier result, or None");
-    return scales.cast<const mrc::Scales*>();
+    return scales.cast<mrc::Scales>();
 }
 
 /// A contour of a list: vertex ids, points on edges as a pair of arrays, or an earlier result.
@@ -120,9 +123,10 @@ mrc::Wishes to_wishes(const py::object& required_vertices, const py::object& req
     return wishes;
 }
 
-std::vector<mrc::Task> to_tasks(const py::sequence& contours, const py::object& closed, const py::object& required_vertices,
+std::vector<mrc::Task> to_tasks(const py::iterable& contours, const py::object& closed, const py::object& required_vertices,
                                 const py::object& required_edges, const mrc::Wishes& shared, const py::object& scales) {
-    const std::size_t count = py::len(contours);
+    const py::list list(contours);
+    const std::size_t count = list.size();
     const auto closed_each = one_each(closed, !is_list(closed), count, "closed");
     const auto vertices_each = one_each(required_vertices, !is_nested(required_vertices, 1), count, "required_vertices");
     const auto edges_each = one_each(required_edges, !is_nested(required_edges, 2), count, "required_edges");
@@ -130,7 +134,7 @@ std::vector<mrc::Task> to_tasks(const py::sequence& contours, const py::object& 
     std::vector<mrc::Task> tasks;
     for (std::size_t i = 0; i < count; ++i) {
         const mrc::Wishes own = to_wishes(vertices_each[i], edges_each[i], py::tuple(), py::tuple(), {Doubles(0), {}});
-        mrc::Task task{listed_contour(contours[i], PyObject_IsTrue(closed_each[i].ptr()) != 0), shared, nullptr};
+        mrc::Task task{listed_contour(list[i], PyObject_IsTrue(closed_each[i].ptr()) != 0), shared, std::nullopt};
         task.wishes.required_vertices = own.required_vertices;
         task.wishes.required_edges = own.required_edges;
         task.scales = to_scales(scales_each[i]);

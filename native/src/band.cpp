@@ -99,7 +99,7 @@ class Grower {
     PolygonSides sides_;
     double farthest_;            // how far from the contour the third and later rounds may reach
     std::vector<char> refused_;  // of each polygon
-    std::vector<char> barrier_;  // of each patch edge
+    std::vector<char> barrier_;  // of each patch edge: a barrier, or a wall of the territory
     Band band_;
     std::vector<Side> front_;  // half-edges of outer polygons whose other side is in the band
     std::vector<char> polygon_in_;
@@ -108,6 +108,8 @@ class Grower {
 
     std::size_t chain_length() const { return patch_.contour.size() - (patch_.closed ? 0 : 1); }
     bool is_front(int h) const { return front_[h] != Side::outside && !barrier_[h / 2]; }
+    /// The band lies on the other side of a barrier: both sides of one never enter.
+    bool is_blocked(int h) const { return front_[h] != Side::outside && barrier_[h / 2]; }
 
     void mark_barriers(const Wishes& wishes) {
         barrier_.resize(mesh_.n_edges(), 0);
@@ -170,6 +172,7 @@ class Grower {
         Chain chain;
         int fronts = 0, vertices = 0;
         for (int i = 0; i < count; ++i) {
+            if (is_blocked(sides[i])) return {};
             vertices += inside(from(sides[i]));
             if (!is_front(sides[i])) continue;
             ++fronts;

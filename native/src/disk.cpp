@@ -88,7 +88,7 @@ double DiskTensors::area_inside(const Triangle& t, const Vec3& centre) const {
     if (std::ranges::none_of(corners, outside)) return 0.5 * t.doubled_area;
     struct Piece {
         Vec2 from, to;
-        bool starts_inside, ends_inside, foot_on_left;
+        bool starts_inside, ends_inside;
     };
     std::array<Piece, 3> pieces;
     int count = 0;
@@ -96,21 +96,20 @@ double DiskTensors::area_inside(const Triangle& t, const Vec3& centre) const {
     bool foot_inside = true;
     for (int side = 0; side < 3; ++side) {
         const Vec2 &a = corners[side], way = corners[(side + 1) % 3] - a;
-        const bool on_left = cross(a, way) >= 0.0;
-        foot_inside &= on_left;
+        foot_inside &= cross(a, way) >= 0.0;
         const Span& span = spans_[t.edges[side]];
         if (span.leave <= span.enter) continue;
         const double enter = t.forward[side] ? span.enter : 1.0 - span.leave,
                      leave = t.forward[side] ? span.leave : 1.0 - span.enter;
-        pieces[count] = {a + enter * way, a + leave * way, enter == 0.0, leave == 1.0, on_left};
+        pieces[count] = {a + enter * way, a + leave * way, enter == 0.0, leave == 1.0};
         doubled += cross(pieces[count].from, pieces[count].to);
         ++count;
     }
     if (count == 0) return foot_inside ? std::numbers::pi * radius2 : 0.0;
     if (count == 1) {
-        // One side alone cuts the circle: what is left of it is more than half of it, or less.
+        // One side alone cuts the circle: more than half of it is inside, or less; nothing where a corner just touches it.
         const double cut_off = std::abs(std::atan2(cross(pieces[0].from, pieces[0].to), pieces[0].from.dot(pieces[0].to)));
-        return 0.5 * (doubled + radius2 * (pieces[0].foot_on_left ? 2.0 * std::numbers::pi - cut_off : cut_off));
+        return 0.5 * (doubled + radius2 * (foot_inside ? 2.0 * std::numbers::pi - cut_off : cut_off));
     }
     for (int i = 0; i < count; ++i) {
         const Piece &last = pieces[i], &next = pieces[(i + 1) % count];
@@ -159,11 +158,14 @@ int DiskTensors::neighbour(int number, int side) {
 int DiskTensors::edge_number(int halfedge) {
     const int number = edge_numbers_.insert(surface_.edge(halfedge));
     if (number < static_cast<int>(edges_.size())) return number;
-    const Vec3 start = surface_.position(surface_.from(halfedge)), way = surface_.position(surface_.to(halfedge)) - start;
+    // Always the same direction, whoever asks first: so the same vertex has the same curvature to the last bit.
+    const int from = surface_.from(halfedge), to = surface_.to(halfedge);
+    const Vec3 start = surface_.position(std::min(from, to)), way = surface_.position(std::max(from, to)) - start;
     const double length2 = way.squaredNorm(), length = std::sqrt(length2);
     edges_.push_back({start, way, length2 > 0.0 ? 1.0 / length2 : 0.0, 0.0, Symmetric::Zero()});
     spans_.emplace_back();
-    const double angle = angle_at(halfedge);
+    const int twin = surface_.twin(halfedge);
+    const double angle = angle_at(twin >= 0 ? std::min(halfedge, twin) : halfedge);
     if (length > 0.0) {
         const Vec3 e = way / length;
         const double weight = angle * length;

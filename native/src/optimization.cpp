@@ -96,6 +96,7 @@ void Optimization::cut_out() {
 }
 
 void Optimization::grow(Partition* partition, int number) {
+    result_.held_back_by.clear();
     if (!patch_) return;
     territory_ = {};
     if (partition) {

@@ -49,9 +49,10 @@ class Company {
           contours_(tasks.size()) {
         for_each([&](int i) {
             const Task& task = tasks[i];
-            const Contour checked = checked_input(surface, task.contour, options, task.wishes, task.scales);
+            const Scales* scales = task.scales ? &*task.scales : nullptr;
+            const Contour checked = checked_input(surface, task.contour, options, task.wishes, scales);
             check_barriers(surface, checked, task.wishes);
-            contours_[i] = std::make_unique<Optimization>(surface, checked, options, task.wishes, task.scales);
+            contours_[i] = std::make_unique<Optimization>(surface, checked, options, task.wishes, scales);
         });
     }
 
@@ -116,10 +117,10 @@ class Company {
         Partition* partition = shared ? &*shared : nullptr;
         for_each_active([&](Optimization& contour, int i) { contour.grow(partition, i); });
         for (int i = 0; partition && i < count(); ++i) {
-            if (active[i] && contours_[i]->patch()) partition->enclose(i, *contours_[i]->patch(), contours_[i]->band());
+            if (contours_[i]->patch()) partition->enclose(i, *contours_[i]->patch(), contours_[i]->band());
         }
         for_each_active([&](Optimization& contour, int i) { contour.search(partition, i); });
-        wake_neighbours();
+        wake_neighbours(active);
         return std::ranges::any_of(contours_, [](const auto& contour) { return contour->moving(); });
     }
 
@@ -142,9 +143,9 @@ class Company {
     }
 
     /// A contour that has settled sets off again where one that kept it back has moved.
-    void wake_neighbours() {
+    void wake_neighbours(const std::vector<char>& active) {
         std::vector<char> moved;
-        for (const auto& contour : contours_) moved.push_back(contour->moved());
+        for (int i = 0; i < count(); ++i) moved.push_back(active[i] && contours_[i]->moved());
         for (const auto& contour : contours_) {
             if (std::ranges::any_of(contour->held_back_by(), [&](int other) { return moved[other] != 0; })) contour->wake();
         }
@@ -167,7 +168,7 @@ std::vector<Result> optimize_all(const Surface& surface, std::span<const Task> t
 
 Result optimize(const Surface& surface, const Contour& contour, const Options& options, const Wishes& wishes, const Scales* scales,
                 const Progress& progress) {
-    const Task task{contour, wishes, scales};
+    const Task task{contour, wishes, scales ? std::optional(*scales) : std::nullopt};
     return std::move(optimize_all(surface, std::span(&task, 1), options, progress)[0]);
 }
 

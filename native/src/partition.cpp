@@ -156,6 +156,10 @@ std::vector<int> Partition::held_back_by(int contour, const Patch& patch, const 
         const auto enclosed = owners_of(band_vertices_, patch.vertex[v]);
         others.insert(enclosed.begin(), enclosed.end());
     }
+    for (int e = 0; e < static_cast<int>(patch.mesh.n_edges()); ++e) {
+        const auto walls = band.edge[e] ? owners_of(edges_, edge_of(patch, e)) : std::span<const int>();
+        others.insert(walls.begin(), walls.end());
+    }
     others.erase(contour);
     return {others.begin(), others.end()};
 }

@@ -200,13 +200,16 @@ def test_iterations_are_single_runs_with_the_first_scales(realistic):
     assert both.ratio == pytest.approx(second.ratio, rel=1e-12)
 
 
-def test_salience_is_that_of_the_best_found(realistic):
-    """A later iteration that finds only worse contours changes neither the result nor how far to trust it."""
-    _, mesh, contour = realistic
-    surface, options = surface_of(mesh), {"flow": "gates", "width": 8, "length_bias": 2.0, "anchor": 1.0}
-    once, twice = (mrc.optimize(surface, contour, options=mrc.Options(**options, iterations=i)) for i in (1, 3))
-    if once.status == "improved" and twice.objective == once.objective:
-        assert twice.salience == once.salience
+def test_salience_is_that_of_the_best_found():
+    """Later iterations that find only worse contours change neither the result nor how far to trust it."""
+    options, settled = {"flow": "gates", "width": 8, "length_bias": 2.0, "anchor": 1.0}, 0
+    for _, mesh, contour in realistic_contours():
+        surface = surface_of(mesh)
+        once, more = (mrc.optimize(surface, contour, options=mrc.Options(**options, iterations=i)) for i in (1, 3))
+        if once.status == "improved" and more.objective == once.objective:
+            settled += 1
+            assert more.salience == once.salience
+    assert settled >= 20
 
 
 @pytest.mark.parametrize("flow", ["gates", "arc_length", "harmonic"])

@@ -170,3 +170,57 @@ def test_whole_surface_refined_works_round_the_regular_result(k):
     assert abs(result.positions[:, 2] / 0.3 - 22.3).max() < 1
     assert result.statistics["iterations"] == 2
     assert result.statistics["faces"] == 2 * 4 * 16
+
+
+def test_a_contour_that_runs_along_a_barrier_and_leaves_on_its_other_side_is_refused():
+    mesh = meshes.tube([1.0] * 9, 12, step=0.5)
+    grid = np.arange(9 * 12).reshape(9, 12)
+    barrier = [(int(grid[4, c]), int(grid[4, c + 1])) for c in range(2, 7)]
+    below, above = grid[3], grid[5]
+    back = np.r_[grid[4, 4:6], below[5:]]
+    across = np.r_[grid[4, 4:6], above[5:], grid[4, 11], below[11]]
+    surface = surface_of(mesh)
+    assert mrc.optimize(surface, np.r_[below[:5], back], barriers=barrier).gap >= 0
+    for contour in (np.r_[below[:5], across], np.r_[below[:5], across][::-1].copy()):
+        with pytest.raises(ValueError, match="crosses a barrier"):
+            mrc.optimize(surface, contour, barriers=barrier)
+
+
+@pytest.mark.parametrize("flow", ["harmonic", "gates", "arc_length"])
+@pytest.mark.parametrize("k", [0, 1])
+def test_what_random_barriers_leave_is_searched_and_never_crossed(flow, k):
+    """Barriers on the contour and around it. A result that crossed one could not be given again."""
+    searched = 0
+    for seed in range(30):
+        rng = np.random.default_rng([seed, k])
+        mesh = meshes.tube(
+            rng.uniform(0.7, 1.3, 13), 14, step=0.4, rng=rng, split_share=rng.choice([0.0, 1.0]), noise=0.05
+        )
+        contour = meshes.zigzag_contour(rng, 14, 5, 7)
+        edges = mesh.real_edges()
+        on = np.isin(edges, contour).any(axis=1)
+        barriers = edges[on & (rng.random(len(edges)) < rng.choice([0.05, 0.2]))]
+        open_contour = contour[:9].copy()
+        for given, closed in ((contour, True), (open_contour, False)):
+            options = mrc.Options(flow=flow, refinement=k, width=4, iterations=2, ends="vertices")
+            try:
+                result = mrc.optimize(surface_of(mesh), given, closed=closed, options=options, barriers=barriers)
+            except ValueError:
+                with pytest.raises(ValueError, match="barrier"):
+                    mrc.optimize(surface_of(mesh), given, closed=closed, barriers=barriers)
+                continue
+            searched += 1
+            assert result.objective <= result.initial_objective
+            mrc.optimize(surface_of(mesh), result, options=options, barriers=barriers)
+    assert searched >= 20
+
+
+def test_curvature_where_vertices_lie_just_on_the_disk():
+    """A disk that a corner of a triangle just touches holds nothing of that triangle, not all of its own circle."""
+    sphere = meshes.icosphere(2)
+    lengths = np.linalg.norm(np.diff(sphere.positions[sphere.real_edges()], axis=1)[:, 0], axis=1)
+    surface, h = surface_of(sphere), lengths.mean()
+    for length in np.unique(lengths):
+        for radius in (length / h * (1 - 1e-9), length / h, length / h * (1 + 1e-9)):
+            curvature = mrc.curvature(surface, mrc.Options(curvature_radius=radius, curvature_smoothing=0.0))
+            assert np.abs(curvature.kappa_max - 1).max() < 0.3

@@ -6,7 +6,7 @@ import mrcontour as mrc
 import numpy as np
 import pytest
 from conftest import surface_of
-from contour_energy import points_of
+from contour_energy import points_of, vertex
 
 ROWS, COLUMNS = 9, 7
 
@@ -181,6 +181,25 @@ def test_a_contour_that_crosses_a_closed_body_is_measured_alike(weight):
     assert measured.ratio == pytest.approx(result.ratio, rel=1e-10)
     again = mrc.optimize(surface, result, options=options, scales=result.scales, region_density=density)
     assert again.initial_ratio == pytest.approx(result.ratio, rel=1e-10)
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("k", [0, 1])
+def test_the_numbering_does_not_matter(seed, k):
+    rng, mesh = random_tube(seed)
+    given, density = meshes.zigzag_contour(rng, COLUMNS, 3, 5), rng.uniform(-1, 1, len(mesh.faces))
+    other, number = meshes.renumbered(mesh, rng)
+    place = {frozenset(face): i for i, face in enumerate(other.faces)}
+    moved = np.empty_like(density)
+    for face, value in zip(mesh.faces, density, strict=True):
+        moved[place[frozenset(number[list(face)].tolist())]] = value
+    options = mrc.Options(region_weight=3.0, refinement=k, width=2, iterations=2)
+    one = mrc.optimize(surface_of(mesh), given, options=options, region_density=density)
+    two = mrc.optimize(surface_of(other), number[given].astype(np.int32), options=options, region_density=moved)
+    assert two.objective == pytest.approx(one.objective, rel=1e-9)
+    assert {vertex(number[p[0]]) if p[2] == 0 else None for p in points_of(one)} == {
+        p if p[2] == 0 else None for p in points_of(two)
+    }
 
 
 def test_bad_densities():

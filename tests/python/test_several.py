@@ -323,6 +323,28 @@ def test_contours_may_be_results_and_points_on_edges():
             assert one.objective <= one.initial_objective
 
 
+def test_one_that_lies_along_another_says_who_is_there():
+    mesh, ring = two_grooves()
+    results = mrc.optimize_all(surface_of(mesh), [ring[8], ring[8], ring[18]])
+    assert [result.held_back_by for result in results] == [(1,), (0,), ()]
+    assert [result.status for result in results] == ["unchanged", "unchanged", "improved"]
+
+
+def test_contours_settle():
+    """One that goes back to where it was given, since it found nothing concave, wakes nobody up."""
+    rows = np.arange(31)
+    radius = 1 - 0.3 * np.exp(-(((rows - 10) / 1.2) ** 2)) - 0.01 * np.exp(-((rows - 16.0) ** 2))
+    ring = rows[:, None] * 24 + np.arange(24)
+    surface = surface_of(meshes.tube(radius, 24, step=0.2))
+    few, many = (
+        mrc.optimize_all(surface, [ring[11], ring[15]], options=mrc.Options(iterations=i, min_salience=1.0))
+        for i in (6, 20)
+    )
+    assert [result.status for result in many] == ["improved", "unchanged"]
+    assert [result.statistics["iterations"] for result in many] == [result.statistics["iterations"] for result in few]
+    assert max(result.statistics["iterations"] for result in few) < 6
+
+
 def test_no_contours():
     assert mrc.optimize_all(surface_of(two_grooves()[0]), []) == []
 

@@ -62,7 +62,7 @@ Result optimize(const Surface& surface, const Contour& contour, const Options& o
 struct Task {
     Contour contour;
     Wishes wishes;
-    const Scales* scales = nullptr;
+    std::optional<Scales> scales;  ///< those of an earlier result, to go on from it; none: of this contour
 };
 
 /// Optimises several contours of one mesh, which never cross or touch each other where the given ones did not (1.4).
@@ -80,7 +80,7 @@ Measure measure(const Surface& surface, const Contour& contour, const Options& o
 /// The curvatures at all vertices; without scales, h is the whole surface's mean edge length.
 std::vector<VertexCurvature> curvature(const Surface& surface, const Options& options = {}, const Scales* scales = nullptr);
 
-/// All that `optimize` builds in its first iteration, for display and for tests.
+/// All that one search of this width and refinement builds, for display and for tests.
 struct SearchSpace {
     Patch patch;
     Band band;

@@ -33,7 +33,7 @@ struct Wishes {
 /// True where the contour has all required elements.
 bool meets(const Contour& contour, const Wishes& wishes);
 
-/// @throws InvalidInput where the contour crosses a barrier.
+/// @throws InvalidInput where the contour crosses a barrier, also where it first runs along it.
 void check_barriers(const Surface& surface, const Contour& contour, const Wishes& wishes);
 
 }  // namespace mrc
