@@ -215,7 +215,8 @@ void bind_functions(py::module_& module) {
         "region_density: (F,) float64 per area, closed contours: with the option region_weight its change on the side region_side\n"
         "weighs (6.1.2).\n"
         "scales: those of an earlier result, to go on from it.\n"
-        "progress: called with the share done, from 0 to 1; returning False cancels, an exception passes through.\n"
+        "progress: called with the share done, from 0 to 1, three phases an iteration, and in long phases again every few\n"
+        "milliseconds; returning False cancels, an exception passes through.\n"
         "Returns a Result. Raises ValueError naming the elements where the contour is not simple or not inside the mesh, and\n"
         "Infeasible, a ValueError, where no contour of the band has all required elements.");
     module.def(

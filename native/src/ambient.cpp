@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ambient.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -21,6 +22,9 @@ class Builder {
     }
 
     AmbientGraph build() {
+        const std::size_t k = ambient_.steiner, edges = std::ranges::count(band_.edge, 1),
+                          faces = std::ranges::count(band_.face, 1);
+        ambient_.segments.reserve(edges * (k + 1) + faces * 3 * k * (k + 1));
         add_vertices();
         add_steiner_points();
         add_edge_segments();

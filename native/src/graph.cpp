@@ -31,7 +31,8 @@ struct DirectedSegment {
 class GraphBuilder {
   public:
     GraphBuilder(const Surface& surface, const Patch& patch, const Band& band, const Flow& flow, const Energy& energy,
-                 const Options& options, const Wishes& wishes, int steiner, const EdgeForm* region, const Territory& territory)
+                 const Options& options, const Wishes& wishes, int steiner, const EdgeForm* region, const Territory& territory,
+                 const Beat& beat)
         : surface_(surface),
           patch_(patch),
           band_(band),
@@ -40,16 +41,23 @@ class GraphBuilder {
           wishes_(wishes),
           region_(region),
           territory_(territory),
+          beat_(beat),
           given_(expressed(patch.given, steiner).points),
           ambient_(make_ambient_graph(patch, band, flow, steiner)) {}
 
     ContourGraph build() {
+        beat();
         merge_levels(ambient_.values, ambient_.segments);
+        beat();
         choose_level();
         keep_off_others();
+        beat();
         orient();
+        beat();
         require();
+        beat();
         sort_chords();
+        beat();
         find_given();
         join();
         return std::move(graph_);
@@ -64,6 +72,7 @@ class GraphBuilder {
     const Wishes& wishes_;
     const EdgeForm* region_;
     const Territory& territory_;
+    const Beat& beat_;
     const std::vector<SurfacePoint> given_;  // the given contour with the graph's own points along edges
     AmbientGraph ambient_;
     ContourGraph graph_;
@@ -117,6 +126,7 @@ class GraphBuilder {
 
     /// Each segment becomes the chord that the flow runs along; a level one becomes two, by rank; of equal rank, none.
     void orient() {
+        directed_.reserve(ambient_.segments.size());
         for (const Segment& s : ambient_.segments) {
             if (!s.walkable) continue;
             const double a = graph_.points[s.a].level, b = graph_.points[s.b].level;
@@ -213,24 +223,47 @@ class GraphBuilder {
     int index(const Segment& s) const { return static_cast<int>(&s - ambient_.segments.data()); }
     Vec3 position(int point) const { return surface_.position(graph_.points[point].place); }
 
+    void beat(std::size_t i = 0) const {
+        if (beat_ && i % 1024 == 0) beat_();
+    }
+
     /// Topological order: by the flow at the tail; level chords first, each kind by rank in its own direction; crossing ones last.
     void sort_chords() {
-        std::vector<int> place(graph_.points.size());
-        for (std::size_t i = 0; i < place.size(); ++i) place[i] = static_cast<int>(i);
-        std::ranges::sort(place, {}, [&](int p) { return std::tuple(graph_.points[p].level, graph_.points[p].rank, p); });
-        std::vector<int> position_in_order(place.size());
-        for (std::size_t i = 0; i < place.size(); ++i) position_in_order[place[i]] = static_cast<int>(i);
-        const auto key = [&](const DirectedSegment& d) {
-            const GraphPoint &tail = graph_.points[d.tail], &head = graph_.points[d.head];
-            const double across = d.crossings ? tail.rank + head.rank : 0.0;
-            const int along_rank = d.climb == Climb::falling ? -position_in_order[d.tail] : position_in_order[d.tail];
-            return std::tuple(d.crossings, across, tail.level, d.climb, along_rank, position_in_order[d.head]);
+        const std::size_t count = graph_.points.size();
+        std::vector<int> order(count), place(count), level(count, 0);  // level: of each point, its level's number
+        for (std::size_t i = 0; i < count; ++i) order[i] = static_cast<int>(i);
+        std::ranges::sort(order, {}, [&](int p) { return std::tuple(graph_.points[p].level, graph_.points[p].rank, p); });
+        for (std::size_t i = 0; i < count; ++i) {
+            place[order[i]] = static_cast<int>(i);
+            if (i > 0) level[order[i]] = level[order[i - 1]] + (graph_.points[order[i]].level > graph_.points[order[i - 1]].level);
+        }
+        struct Key {
+            int crossings;
+            double across;
+            int level;
+            Climb climb;
+            int tail, head;  // places
+            std::size_t chord;
+            auto operator<=>(const Key&) const = default;
         };
-        std::ranges::sort(directed_, {}, key);
-        for (const DirectedSegment& d : directed_) {
+        std::vector<Key> keys;
+        keys.reserve(directed_.size());
+        for (std::size_t i = 0; i < directed_.size(); ++i) {
+            const DirectedSegment& d = directed_[i];
+            const double across = d.crossings ? graph_.points[d.tail].rank + graph_.points[d.head].rank : 0.0;
+            const int tail = d.climb == Climb::falling ? -place[d.tail] : place[d.tail];
+            keys.push_back({d.crossings, across, level[d.tail], d.climb, tail, place[d.head], i});
+        }
+        std::ranges::sort(keys);
+        std::vector<DirectedSegment> sorted;
+        sorted.reserve(directed_.size());
+        graph_.chords.reserve(directed_.size());
+        for (const Key& key : keys) {
+            const DirectedSegment& d = sorted.emplace_back(directed_[key.chord]);
             graph_.chords.push_back({d.tail, d.head, d.increment});
             graph_.crossing += d.crossings;
         }
+        directed_ = std::move(sorted);
     }
 
     /// The places of the chords that the given contour runs along.
@@ -311,11 +344,15 @@ class GraphBuilder {
     /// The arcs: pairs of chords, the second of which starts where the first ends.
     void join() {
         std::vector<Frame> frames;
-        for (const GraphPoint& p : graph_.points) frames.push_back(energy_.frame(p.place));
+        for (const GraphPoint& p : graph_.points) {
+            beat(frames.size());
+            frames.push_back(energy_.frame(p.place));
+        }
         std::vector<ChordEnd> starts, ends;
         std::vector<double> enclosed(graph_.chords.size(), 0.0);  // half of what each chord adds to the region term
         std::vector<std::vector<int>> arriving(graph_.points.size());
         for (std::size_t c = 0; c < graph_.chords.size(); ++c) {
+            beat(c);
             const Chord& chord = graph_.chords[c];
             const Vec3 along = position(chord.head) - position(chord.tail);
             const int halfedge = ambient_.segments[directed_[c].segment].halfedge;
@@ -333,6 +370,7 @@ class GraphBuilder {
         WeightedGraph& search = graph_.search;
         search.first_arc.assign(graph_.crossing + 1, 0);
         for (int out = 0; out < chords; ++out) {
+            beat(out);
             const int point = graph_.chords[out].tail;
             for (const int in : arriving[point]) {
                 if (!joins(in, out, ends[in], starts[out])) continue;
@@ -356,9 +394,9 @@ class GraphBuilder {
 
 ContourGraph make_graph(const Surface& surface, const Patch& patch, const Band& band, const Flow& flow, const Energy& energy,
                         const Options& options, const Wishes& wishes, int steiner, const EdgeForm* region,
-                        const Territory& territory) {
+                        const Territory& territory, const Beat& beat) {
     check_graph_size(static_cast<double>(std::ranges::count(band.face, 1)), steiner);
-    return GraphBuilder(surface, patch, band, flow, energy, options, wishes, steiner, region, territory).build();
+    return GraphBuilder(surface, patch, band, flow, energy, options, wishes, steiner, region, territory, beat).build();
 }
 
 }  // namespace mrc

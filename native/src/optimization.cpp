@@ -113,19 +113,20 @@ void Optimization::grow(Partition* partition, int number) {
     band_ = stopwatch_.time("band", [&] { return grow_band(surface_, *patch_, phase_options_, wishes_, territory_); });
 }
 
-void Optimization::search(Partition* partition, int number) {
+void Optimization::search(Partition* partition, int number, const Beat& beat) {
     if (!patch_) return;
     if (partition) {
         partition->close(number, *patch_, territory_);
         result_.held_back_by = partition->held_back_by(number, *patch_, band_);
     }
     const Flow flow = stopwatch_.time("flow", [&] { return make_flow(*patch_, band_, options_); });
+    if (beat) beat();
     const std::optional<EdgeForm> region = make_region_form(flow);
     const ContourGraph graph = stopwatch_.time("graph", [&] {
         return make_graph(surface_, *patch_, band_, flow, setting_->energy, options_, wishes_, steiner_,
-                          region ? &*region : nullptr, territory_);
+                          region ? &*region : nullptr, territory_, beat);
     });
-    const RatioResult best = stopwatch_.time("ratio", [&] { return minimum_ratio(graph.search, search_options()); });
+    const RatioResult best = stopwatch_.time("ratio", [&] { return minimum_ratio(graph.search, search_options(beat)); });
     count(graph, best);
     if (!feasible_ && !best.found) throw Infeasible(where_it_stops(graph, wishes_, result_.held_back_by));
     const double before = feasible_ ? result_.objective : std::numeric_limits<double>::infinity();
@@ -170,8 +171,9 @@ bool Optimization::below(double a, double b) const {
 }
 
 /// The search begins at what the current contour suggests.
-RatioOptions Optimization::search_options() const {
+RatioOptions Optimization::search_options(const Beat& beat) const {
     RatioOptions options;
+    options.beat = beat;
     options.objective = setting_->energy.objective();
     options.guess = Terminal{-1, current_.numerator, current_.length};
     return options;

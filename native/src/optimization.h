@@ -47,7 +47,7 @@ class Optimization {
     void cut_out();
     void grow(Partition* partition, int number);
     /// Finds the best contour of the band and takes it where it is better than the one so far.
-    void search(Partition* partition, int number);
+    void search(Partition* partition, int number, const Beat& beat);
     Result finish();
     /// A cancelled call changes nothing.
     Result cancelled() const;
@@ -87,7 +87,7 @@ class Optimization {
     bool below(double a, double b) const;
     void accept(const Contour& found, const std::optional<EdgeForm>& region);
     void conclude(const ContourGraph& graph, const RatioResult& best, double before);
-    RatioOptions search_options() const;
+    RatioOptions search_options(const Beat& beat) const;
     std::optional<EdgeForm> make_region_form(const Flow& flow) const;
     bool featureless() const;
     void explain(const RatioResult& best);

@@ -4,6 +4,7 @@
 #include "memory.h"
 #include "optimization.h"
 #include "parallel.h"
+#include "watch.h"
 
 #include <memory>
 #include <string>
@@ -44,7 +45,7 @@ class Company {
     Company(const Surface& surface, std::span<const Task> tasks, const Options& options, const Progress& progress)
         : surface_(surface),
           options_(options),
-          progress_(progress),
+          watch_(progress),
           regular_iterations_(whole_and_refined(options) ? std::max(1, options.regular_iterations) : options.regular_iterations),
           contours_(tasks.size()) {
         for_each([&](int i) {
@@ -57,30 +58,37 @@ class Company {
     }
 
     std::vector<Result> run() {
-        if (regular_iterations_ > 0 && !run_phase(regular_iterations_, 0)) return cancelled();
-        if (!run_phase(options_.iterations, options_.refinement)) return cancelled();
-        std::vector<Result> results(contours_.size());
-        for_each([&](int i) { results[i] = contours_[i]->finish(); });
-        if (!report(1.0)) return cancelled();
-        return results;
+        try {
+            if (regular_iterations_ > 0) run_phase(regular_iterations_, 0, 0);
+            run_phase(options_.iterations, options_.refinement, regular_iterations_);
+            std::vector<Result> results(contours_.size());
+            for_each([&](int i) { results[i] = contours_[i]->finish(); });
+            watch_.advance(1.0);
+            return results;
+        } catch (const Watch::Cancelled&) {
+            if (watch_.failure()) std::rethrow_exception(watch_.failure());
+            return cancelled();
+        }
     }
 
   private:
     const Surface& surface_;
     const Options& options_;
-    const Progress& progress_;
+    Watch watch_;
     const int regular_iterations_;
     std::vector<std::unique_ptr<Optimization>> contours_;
-    int iterations_ = 0;  // begun so far
+    int iteration_ = 0;  // the one under way, counted as if none ended early
 
     /// A refined search needs the regular result of the whole surface to begin from.
     static bool whole_and_refined(const Options& options) { return !options.width && options.refinement > 0; }
     int count() const { return static_cast<int>(contours_.size()); }
-    bool report(double share) const { return !progress_ || progress_(share); }
+
+    /// An iteration has three steps: patches, bands, searches.
+    void report(int step) { watch_.advance((3.0 * iteration_ + step) / (3.0 * (regular_iterations_ + options_.iterations))); }
 
     template <class Step>
     void for_each(Step&& step) {
-        parallel_for(count(), options_.threads, [&](int i) {
+        const auto named_step = [&](int i) {
             try {
                 step(i);
             } catch (const Infeasible& error) {
@@ -88,18 +96,19 @@ class Company {
             } catch (const InvalidInput& error) {
                 throw InvalidInput(name(i) + error.what());
             }
-        });
+        };
+        parallel_for(count(), options_.threads, named_step, [&] { watch_.idle(); });
     }
     std::string name(int i) const { return count() == 1 ? "" : "contour " + std::to_string(i) + ": "; }
 
-    /// False: cancelled.
-    bool run_phase(int iterations, int steiner) {
+    /// Iterations with one k, the first of which is counted as iteration `first`.
+    void run_phase(int iterations, int steiner, int first) {
         for_each([&](int i) { contours_[i]->begin_phase(steiner); });
         for (int i = 0; i < iterations; ++i) {
-            if (!report(static_cast<double>(iterations_++) / (regular_iterations_ + options_.iterations))) return false;
+            iteration_ = first + i;
+            report(0);
             if (!iterate()) break;
         }
-        return true;
     }
 
     /// One iteration of those that still move; false where none of them will move again.
@@ -112,6 +121,7 @@ class Company {
             });
         };
         for_each_active([](Optimization& contour, int) { contour.cut_out(); });
+        report(1);
         std::optional<Partition> shared;
         if (count() > 1) share_out(shared.emplace(surface_));
         Partition* partition = shared ? &*shared : nullptr;
@@ -119,7 +129,9 @@ class Company {
         for (int i = 0; partition && i < count(); ++i) {
             if (contours_[i]->patch()) partition->enclose(i, *contours_[i]->patch(), contours_[i]->band());
         }
-        for_each_active([&](Optimization& contour, int i) { contour.search(partition, i); });
+        report(2);
+        const Beat beat = [&] { watch_.beat(); };
+        for_each_active([&](Optimization& contour, int i) { contour.search(partition, i, beat); });
         wake_neighbours(active);
         return std::ranges::any_of(contours_, [](const auto& contour) { return contour->moving(); });
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <exception>
 #include <thread>
 #include <vector>
@@ -10,13 +11,13 @@
 namespace mrc {
 
 /// Calls task(i) for every i from 0 up to count, on `threads` threads; 0: as many as the machine has. All tasks are done when it
-/// returns; of what they throw, the exception of the lowest i is thrown here.
-template <class Task>
-void parallel_for(int count, int threads, Task&& task) {
+/// returns; of what they throw, the exception of the lowest i is thrown here. While the calling thread waits, it calls idle() often.
+template <class Task, class Idle>
+void parallel_for(int count, int threads, Task&& task, Idle&& idle) {
     const int wanted = threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency());
     const int workers = std::min(std::max(wanted, 1), count);
     std::vector<std::exception_ptr> thrown(count);
-    std::atomic<int> next = 0;
+    std::atomic<int> next = 0, done = 0;
     const auto work = [&] {
         for (int i = next++; i < count; i = next++) {
             try {
@@ -24,12 +25,17 @@ void parallel_for(int count, int threads, Task&& task) {
             } catch (...) {
                 thrown[i] = std::current_exception();
             }
+            ++done;
         }
     };
     {
         std::vector<std::jthread> others;
         for (int w = 1; w < workers; ++w) others.emplace_back(work);
         work();
+        while (done < count) {
+            idle();
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
     }
     for (const std::exception_ptr& exception : thrown) {
         if (exception) std::rethrow_exception(exception);

@@ -44,7 +44,7 @@ struct Pass {
 class Search {
   public:
     Search(const WeightedGraph& graph, const RatioOptions& options)
-        : graph_(graph), objective_(options.objective), most_labels_(options.most_labels) {
+        : graph_(graph), objective_(options.objective), most_labels_(options.most_labels), beat_(options.beat) {
         start_.assign(graph.node_count(), -1);
         counted_ = std::ranges::all_of(graph.g, [](double g) { return g == 1.0; });
         const Terminal guess = options.guess.value_or(Terminal{-1, 0.0, 1.0});
@@ -82,6 +82,7 @@ class Search {
     const WeightedGraph& graph_;
     const Objective objective_;
     const int most_labels_;
+    const Beat& beat_;
     std::vector<int> start_;
     Pass pass_;
     double lambda_;
@@ -169,6 +170,7 @@ class Search {
     /// One pass in topological order (Bellman and Ford's relaxation is linear there) from a set of sources.
     void relax(const std::vector<int>& set, double lambda, Pass& pass) {
         ++result_.passes;
+        if (beat_) beat_();
         pass.lambda = lambda;
         pass.value.resize(graph_.node_count());
         pass.last_arc.resize(graph_.node_count());
@@ -251,6 +253,7 @@ class Search {
             const int index = stack.back();
             stack.pop_back();
             const Label label = labels[index];
+            if (beat_ && index % 256 == 0) beat_();
             if (!worth_while(passes, label)) continue;
             if (start_[label.node] >= 0) finish_label(labels, index);
             for (int a = graph_.first_arc[label.node]; a < graph_.first_arc[label.node + 1]; ++a) {
@@ -272,6 +275,7 @@ class Search {
         std::vector<std::vector<int>> at(graph_.node_count());
         at[end.node].push_back(0);
         for (int n = end.node; n >= 0; --n) {
+            if (beat_) beat_();
             for (const int index : at[n]) {
                 const Label label = labels[index];
                 if (!worth_while(passes, label)) continue;

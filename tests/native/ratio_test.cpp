@@ -11,6 +11,7 @@
 #include <cmath>
 #include <functional>
 #include <random>
+#include <stdexcept>
 
 namespace {
 
@@ -264,6 +265,22 @@ TEST(Ratio, a_pair_of_many_bad_paths_does_not_use_up_the_labels_of_the_others) {
     const mrc::RatioResult result = mrc::minimum_ratio(distracting_graph(), options);
     EXPECT_DOUBLE_EQ(result.objective, -2.9 / 2.0 + 2.0);
     EXPECT_DOUBLE_EQ(result.lower_bound, result.objective);
+}
+
+TEST(Ratio, what_a_beat_throws_ends_the_search) {
+    mrc::RatioOptions options;
+    options.objective = {1.0, 1.0};
+    int beats = 0;
+    options.beat = [&] { ++beats; };
+    mrc::minimum_ratio(distracting_graph(), options);
+    EXPECT_GT(beats, 5);
+    for (int last = 1; last < beats; ++last) {
+        int left = last;
+        options.beat = [&] {
+            if (--left == 0) throw std::runtime_error("enough");
+        };
+        EXPECT_THROW(mrc::minimum_ratio(distracting_graph(), options), std::runtime_error);
+    }
 }
 
 TEST(Ratio, a_graph_without_a_path_has_no_result) {

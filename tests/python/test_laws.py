@@ -248,6 +248,33 @@ def test_progress_is_called_and_cancels(realistic):
         optimize(mesh, contour, progress=lambda fraction: 1 // 0)
 
 
+def test_progress_has_three_phases_an_iteration(realistic):
+    """Patches, bands and searches; what ends early goes on with the share of the next phase."""
+    _, mesh, contour = realistic
+    surface, heard = surface_of(mesh), []
+    for options in ({"iterations": 1}, {"iterations": 2, "regular_iterations": 2, "refinement": 1}):
+        total = 3 * (options["iterations"] + options.get("regular_iterations", 0))
+        heard.clear()
+        mrc.optimize(surface, contour, options=mrc.Options(**options), progress=heard.append)
+        assert heard == sorted(heard)
+        phases = [round(total * share, 9) for share in dict.fromkeys(heard)]
+        assert phases[:3] == [0, 1, 2]
+        assert phases[-1] == total
+        assert set(phases) <= set(range(total + 1))
+
+
+def test_a_cancel_in_any_phase_changes_nothing(realistic):
+    _, mesh, contour = realistic
+    surface, options = surface_of(mesh), mrc.Options(iterations=2)
+    shares = []
+    mrc.optimize(surface, contour, options=options, progress=shares.append)
+    for share in dict.fromkeys(shares):
+        result = mrc.optimize(surface, contour, options=options, progress=lambda done, share=share: done < share)
+        assert result.status == "cancelled"
+        assert result.vertices.tolist() == contour.tolist()
+        assert result.objective == result.initial_objective
+
+
 def test_triangle_arrays_need_no_offsets(realistic):
     _, mesh, contour = realistic
     triangles = replace(mesh, faces=tuple(map(tuple, mesh.triangles.tolist())))

@@ -44,6 +44,6 @@ struct ContourGraph {
 /// `steiner`: k, the Steiner points put on each edge; 0: contours keep to mesh edges.
 ContourGraph make_graph(const Surface& surface, const Patch& patch, const Band& band, const Flow& flow, const Energy& energy,
                         const Options& options, const Wishes& wishes, int steiner, const EdgeForm* region = nullptr,
-                        const Territory& territory = {});
+                        const Territory& territory = {}, const Beat& beat = {});
 
 }  // namespace mrc

@@ -47,7 +47,8 @@ struct Result {
     Statistics statistics;
 };
 
-/// Called with the share done, from 0 to 1 without falling; false cancels.
+/// Called with the share done, from 0 to 1 without falling, on the caller's thread: at each of three phases an iteration, and in long
+/// phases again every few milliseconds; false cancels.
 using Progress = std::function<bool(double)>;
 
 /// Moves a contour to the one of least ratio in a band around it (chapter 4).

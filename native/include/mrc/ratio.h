@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <mrc/types.h>
+
 #include <optional>
 #include <vector>
 
@@ -46,9 +48,10 @@ struct Objective {
 struct RatioOptions {
     Objective objective;
     /// A path like this is expected: it sets where the search begins, and nothing else.
-    std::optional<Terminal> guess;
+    std::optional<Terminal> guess = {};
     /// The search for paths above the lower hull gives up after so many labels, and reports the gap that is left.
     int most_labels = 1'000'000;
+    Beat beat = {};  ///< called at every pass and every few labels
 };
 
 struct RatioResult {

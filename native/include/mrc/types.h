@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -32,6 +33,9 @@ struct Contour {
 };
 
 Contour vertex_contour(std::span<const int> vertices, bool closed = true);
+
+/// Called often by a long stage; what it throws ends the stage.
+using Beat = std::function<void()>;
 
 /// Input that cannot be used. The message names the elements and says what to do.
 class InvalidInput : public std::invalid_argument {
