@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <set>
 #include <string>
 #include <tuple>
@@ -227,26 +228,28 @@ class GraphBuilder {
         if (beat_ && i % 1024 == 0) beat_();
     }
 
-    /// Topological order: by the flow at the tail; level chords first, each kind by rank in its own direction; crossing ones last.
-    void sort_chords() {
+    /// Where a chord stands in the topological order: by the flow at the tail; level chords first, each kind by rank in its own
+    /// direction; those that cross the cut last.
+    struct ChordKey {
+        int crossings;
+        double across;
+        int level;  // of the tail, by number
+        Climb climb;
+        int tail, head;  // by their places among the points
+        std::size_t chord;
+        auto operator<=>(const ChordKey&) const = default;
+    };
+
+    std::vector<ChordKey> chord_keys() const {
         const std::size_t count = graph_.points.size();
-        std::vector<int> order(count), place(count), level(count, 0);  // level: of each point, its level's number
+        std::vector<int> order(count), place(count), level(count, 0);
         for (std::size_t i = 0; i < count; ++i) order[i] = static_cast<int>(i);
         std::ranges::sort(order, {}, [&](int p) { return std::tuple(graph_.points[p].level, graph_.points[p].rank, p); });
         for (std::size_t i = 0; i < count; ++i) {
             place[order[i]] = static_cast<int>(i);
             if (i > 0) level[order[i]] = level[order[i - 1]] + (graph_.points[order[i]].level > graph_.points[order[i - 1]].level);
         }
-        struct Key {
-            int crossings;
-            double across;
-            int level;
-            Climb climb;
-            int tail, head;  // places
-            std::size_t chord;
-            auto operator<=>(const Key&) const = default;
-        };
-        std::vector<Key> keys;
+        std::vector<ChordKey> keys;
         keys.reserve(directed_.size());
         for (std::size_t i = 0; i < directed_.size(); ++i) {
             const DirectedSegment& d = directed_[i];
@@ -254,16 +257,35 @@ class GraphBuilder {
             const int tail = d.climb == Climb::falling ? -place[d.tail] : place[d.tail];
             keys.push_back({d.crossings, across, level[d.tail], d.climb, tail, place[d.head], i});
         }
-        std::ranges::sort(keys);
-        std::vector<DirectedSegment> sorted;
-        sorted.reserve(directed_.size());
-        graph_.chords.reserve(directed_.size());
-        for (const Key& key : keys) {
-            const DirectedSegment& d = sorted.emplace_back(directed_[key.chord]);
+        return keys;
+    }
+
+    /// Sorted in buckets of one level each, and one for what crosses the cut.
+    void sort_chords() {
+        const std::vector<ChordKey> keys = chord_keys();
+        beat();
+        const std::size_t last = graph_.points.size();  // no level has a higher number
+        const auto bucket = [&](const ChordKey& key) { return key.crossings > 0 ? last : static_cast<std::size_t>(key.level); };
+        std::vector<std::size_t> end(last + 1, 0);
+        for (const ChordKey& key : keys) ++end[bucket(key)];
+        std::inclusive_scan(end.begin(), end.end(), end.begin());
+        std::vector<std::size_t> next(end.size(), 0);
+        std::copy(end.begin(), end.end() - 1, next.begin() + 1);
+        std::vector<ChordKey> sorted(keys.size());
+        for (const ChordKey& key : keys) sorted[next[bucket(key)]++] = key;
+        for (std::size_t b = 0, begin = 0; b < end.size(); begin = end[b++]) {
+            beat(b);
+            std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(begin), sorted.begin() + static_cast<std::ptrdiff_t>(end[b]));
+        }
+        std::vector<DirectedSegment> directed;
+        directed.reserve(sorted.size());
+        graph_.chords.reserve(sorted.size());
+        for (const ChordKey& key : sorted) {
+            const DirectedSegment& d = directed.emplace_back(directed_[key.chord]);
             graph_.chords.push_back({d.tail, d.head, d.increment});
             graph_.crossing += d.crossings;
         }
-        directed_ = std::move(sorted);
+        directed_ = std::move(directed);
     }
 
     /// The places of the chords that the given contour runs along.
