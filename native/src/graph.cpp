@@ -104,8 +104,8 @@ class GraphBuilder {
             }
         }
         std::set<int> walls;  // by the surface's edges
-        for (std::size_t e = 0; e < territory_.wall.size(); ++e) {
-            if (territory_.wall[e]) walls.insert(surface_.edge(std::max(patch_.halfedge[2 * e], patch_.halfedge[2 * e + 1])));
+        for (int e = 0; e < static_cast<int>(territory_.wall.size()); ++e) {
+            if (territory_.wall[e]) walls.insert(surface_.edge(patch_.edge_halfedge(e)));
         }
         for (Segment& s : ambient_.segments) {
             const bool crossed = s.halfedge >= 0 && walls.contains(surface_.edge(s.halfedge));
@@ -200,7 +200,7 @@ class GraphBuilder {
     }
 
     std::vector<int> segments_of_edge(int edge) const {
-        const int halfedge = std::max(patch_.halfedge[2 * edge], patch_.halfedge[2 * edge + 1]);
+        const int halfedge = patch_.edge_halfedge(edge);
         std::vector<int> own;
         for (std::size_t i = 0; i < ambient_.segments.size(); ++i) {
             const int h = ambient_.segments[i].halfedge;

@@ -59,9 +59,7 @@ bool Partition::has_other(std::span<const int> owners, int contour) {
     return std::ranges::any_of(owners, [&](int other) { return other != contour; });
 }
 
-int Partition::edge_of(const Patch& patch, int e) const {
-    return surface_.edge(std::max(patch.halfedge[2 * e], patch.halfedge[2 * e + 1]));
-}
+int Partition::edge_of(const Patch& patch, int e) const { return surface_.edge(patch.edge_halfedge(e)); }
 
 void Partition::occupy(int contour, const Contour& where) {
     const std::size_t count = where.points.size();

@@ -270,8 +270,7 @@ class PatchBuilder {
 
     void mark_borders() {
         for (const auto edge : patch_.mesh.edges()) {
-            const int h = std::max(patch_.halfedge[2 * edge.idx()], patch_.halfedge[2 * edge.idx() + 1]);
-            patch_.border_edge.push_back(surface_.twin(h) < 0);
+            patch_.border_edge.push_back(surface_.twin(patch_.edge_halfedge(edge.idx())) < 0);
         }
     }
 

@@ -448,7 +448,7 @@ class BruteForce:
         """All closed contours: (vertices, sum of f, sum of g)."""
         sources = set(self.crossing())
         for source in sorted(sources):
-            useful = self._reaching(source, sources)
+            useful = reaching(self.arcs.items(), [source], sources)
             stack = [(source, (self.nodes[source][0],), 0.0, 0.0)]
             while stack:
                 node, path, f, g = stack.pop()
@@ -457,20 +457,6 @@ class BruteForce:
                         yield path, f + arc_f, g + arc_g
                     elif following in useful:
                         stack.append((following, (*path, self.nodes[following][0]), f + arc_f, g + arc_g))
-
-    def _reaching(self, source, sources):
-        """The nodes off the cut from which the source can be reached again."""
-        before = defaultdict(list)
-        for i, following in self.arcs.items():
-            for j, _, _ in following:
-                before[j].append(i)
-        seen, stack = set(), [source]
-        while stack:
-            for i in before[stack.pop()]:
-                if i not in seen and i not in sources:
-                    seen.add(i)
-                    stack.append(i)
-        return seen
 
     def count(self):
         """The number of closed contours, by dynamic programming, to tell whether enumeration is affordable."""
@@ -492,6 +478,21 @@ class BruteForce:
         if found[0] < given_ratio and not same_cycle(found[1], self.given):
             return found[0], found[1], "improved"
         return given_ratio, tuple(self.given), "unchanged"
+
+
+def reaching(arcs, goals, stops):
+    """The nodes from which a goal can be reached without passing a stop; arcs: pairs of a node and those after it."""
+    before = defaultdict(list)
+    for i, following in arcs:
+        for j, _, _ in following:
+            before[j].append(i)
+    seen, stack = set(), list(goals)
+    while stack:
+        for i in before[stack.pop()]:
+            if i not in seen and i not in stops:
+                seen.add(i)
+                stack.append(i)
+    return seen
 
 
 def same_cycle(one, two):

@@ -11,7 +11,7 @@ from itertools import pairwise
 from math import floor, inf
 
 import numpy as np
-from brute_force import LEVEL, Levels, edges_of, signed_ranks
+from brute_force import LEVEL, Levels, edges_of, reaching, signed_ranks
 from contour_energy import UNITS, edge_of, point_on, vertex
 
 
@@ -304,7 +304,7 @@ class ContourGraph:
             sources = set(self.sources)
             for source in self.sources:
                 stack = [(source, (self.nodes[source][0],), 0.0, 0.0)]
-                useful = self._reaching({source}, sources)
+                useful = reaching(enumerate(self.arcs), {source}, sources)
                 while stack:
                     i, path, F, G = stack.pop()
                     for j, f, g in self.arcs[i]:
@@ -313,7 +313,7 @@ class ContourGraph:
                         elif j in useful:
                             stack.append((j, (*path, self.nodes[j][0]), F + f, G + g))
             return
-        useful = self._reaching(set(self.last), set())
+        useful = reaching(enumerate(self.arcs), set(self.last), set())
         stack = [(i, self.nodes[i][:2], f, g) for i, (f, g) in self.first.items()]
         while stack:
             i, path, F, G = stack.pop()
@@ -325,19 +325,6 @@ class ContourGraph:
                 for j, f, g in self.arcs[i]
                 if j in useful or j in self.last
             ]
-
-    def _reaching(self, goals, stops):
-        before = defaultdict(list)
-        for i, arcs in enumerate(self.arcs):
-            for j, _, _ in arcs:
-                before[j].append(i)
-        seen, stack = set(), list(goals)
-        while stack:
-            for i in before[stack.pop()]:
-                if i not in seen and i not in stops:
-                    seen.add(i)
-                    stack.append(i)
-        return seen
 
     def count(self):
         """The number of contours, by dynamic programming."""

@@ -16,8 +16,9 @@ enum class Denominator { length, arcs };
 /// All settings of the method; each stage reads its own. Sections are those of Clements 2006.
 struct Options {
     // band, 4.2.1
-    std::optional<int> width =
-        4;  ///< rings of faces to each side, at least 1; none: until topology stops the band (if refined: first)
+    /// Rings of faces to each side, at least 1; none: until topology stops the band, and what is refined then works in a band of the
+    /// default width around the regular result.
+    std::optional<int> width = 4;
     /// Besides, from the third ring on, only polygons all of whose vertices lie within this distance of the iteration's start, in
     /// average radii of the contour's connected component.
     std::optional<double> band_distance;

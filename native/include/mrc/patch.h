@@ -5,6 +5,7 @@
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -37,6 +38,8 @@ struct Patch {
 
     int polygon_count() const { return static_cast<int>(polygon_face.size()); }
     bool diagonal_halfedge(int h) const { return diagonal[h / 2] != 0; }
+    /// A surface half-edge of a patch edge.
+    int edge_halfedge(int e) const { return std::max(halfedge[2 * e], halfedge[2 * e + 1]); }
 };
 
 /// The contour with its ends of edges written as vertices.
