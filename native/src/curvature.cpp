@@ -3,6 +3,7 @@
 
 #include "disk.h"
 #include "index_map.h"
+#include "parallel.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -11,8 +12,8 @@
 #include <array>
 #include <cmath>
 #include <deque>
-#include <functional>
-#include <numbers>
+#include <iterator>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -58,81 +59,98 @@ double vertex_area(const Surface& surface, int vertex) {
 
 namespace {
 
-/// The real edges round the vertices met so far, numbered as they are met, for many short searches for distances.
+/// The real edges round the vertices met so far, numbered as they are met.
 class NearGraph {
   public:
-    explicit NearGraph(const Surface& surface) : surface_(surface) {}
-
-    int number(int vertex) {
-        const int n = numbers_.insert(vertex);
-        if (n == static_cast<int>(vertices_.size())) {
-            vertices_.push_back(vertex);
-            first_link_.push_back(-1);
-            distance_.push_back(0.0);
-            met_in_.push_back(0);
-            queued_.push_back(0);
-        }
-        return n;
-    }
-    int vertex(int number) const { return vertices_[number]; }
-
-    /// Calls visit(number, distance) for the vertices within `limit` of one. The distances are corrected until none falls any more,
-    /// which over so few edges of like lengths takes less time than a heap.
-    template <class Visit>
-    void for_each_within(int start, double limit, Visit&& visit) {
-        ++search_;
-        near_.clear();
-        queue_.clear();
-        reach(start, 0.0);
-        for (std::size_t i = 0; i < queue_.size(); ++i) {
-            const int n = queue_[i];
-            queued_[n] = 0;
-            const double here = distance_[n];
-            for (const Link* link = links(n); link->to >= 0; ++link) {
-                if (here + link->length <= limit) reach(link->to, here + link->length);
-            }
-        }
-        for (const int n : near_) visit(n, distance_[n]);
-    }
-
-  private:
     struct Link {
         int to;
         double length;
     };
+
+    explicit NearGraph(const Surface& surface) : surface_(surface) {}
+
+    int number(int vertex) {
+        const int n = numbers_.insert(vertex);
+        if (n == size()) {
+            vertices_.push_back(vertex);
+            first_link_.push_back(-1);
+        }
+        return n;
+    }
+    int vertex(int number) const { return vertices_[number]; }
+    int size() const { return static_cast<int>(vertices_.size()); }
+
+    /// Reads the edges round a vertex; until then it has no links.
+    void expand(int n) {
+        if (first_link_[n] >= 0) return;
+        const int begin = static_cast<int>(links_.size());
+        const Vec3& here = surface_.position(vertices_[n]);
+        surface_.for_each_real_edge(vertices_[n], [&](int neighbour, int) {
+            links_.push_back({number(neighbour), (surface_.position(neighbour) - here).norm()});
+        });
+        links_.push_back({-1, 0.0});
+        first_link_[n] = begin;
+    }
+
+    /// Ends with a link to -1.
+    const Link* links(int n) const { return links_.data() + first_link_[n]; }
+
+  private:
     const Surface& surface_;
     IndexMap numbers_;
     std::vector<int> vertices_, first_link_;
-    std::vector<Link> links_;  // of each vertex, once it is searched, closed by one that leads nowhere
-    std::vector<double> distance_;
-    std::vector<int> met_in_;  // the search that distance_ belongs to
-    int search_ = 0;
-    std::vector<int> near_, queue_;  // of the search under way: all vertices met, and those whose neighbours are to be reached
-    std::vector<char> queued_;
+    std::vector<Link> links_;
+};
 
-    void reach(int n, double distance) {
-        if (met_in_[n] != search_) {
-            near_.push_back(n);
-        } else if (distance >= distance_[n]) {
-            return;
+/// Searches for short distances, one after the other in the same memory.
+class NearSearch {
+  public:
+    /// The vertices within `limit` of the start, which is nearest to itself. The distances are corrected until none falls any more,
+    /// which over so few edges of like lengths takes less time than a heap. `expand` is called for a vertex before its links are read.
+    template <class Expand>
+    std::span<const int> run(const NearGraph& graph, std::span<const int> starts, double limit, Expand&& expand) {
+        ++search_;
+        near_.clear();
+        queue_.clear();
+        make_room(graph);
+        for (const int start : starts) reach(start, 0.0);
+        for (std::size_t i = 0; i < queue_.size(); ++i) {
+            const int n = queue_[i];
+            nodes_[n].queued = false;
+            expand(n);
+            make_room(graph);
+            const double here = nodes_[n].distance;
+            for (const NearGraph::Link* link = graph.links(n); link->to >= 0; ++link) {
+                if (here + link->length <= limit) reach(link->to, here + link->length);
+            }
         }
-        met_in_[n] = search_;
-        distance_[n] = distance;
-        if (!queued_[n]) queue_.push_back(n);
-        queued_[n] = 1;
+        return near_;
+    }
+    double distance(int n) const { return nodes_[n].distance; }
+
+  private:
+    struct Node {
+        double distance = 0.0;
+        int search = 0;  // that the distance belongs to
+        bool queued = false;
+    };
+    std::vector<Node> nodes_;
+    int search_ = 0;
+    std::vector<int> near_, queue_;  // all vertices met, and those whose neighbours are to be reached
+
+    void make_room(const NearGraph& graph) {
+        if (static_cast<int>(nodes_.size()) < graph.size()) nodes_.resize(2 * graph.size());
     }
 
-    const Link* links(int n) {
-        if (first_link_[n] < 0) {
-            const int begin = static_cast<int>(links_.size());
-            const Vec3& here = surface_.position(vertices_[n]);
-            surface_.for_each_real_edge(vertices_[n], [&](int neighbour, int) {
-                links_.push_back({number(neighbour), (surface_.position(neighbour) - here).norm()});
-            });
-            links_.push_back({-1, 0.0});
-            first_link_[n] = begin;
+    void reach(int n, double distance) {
+        Node& node = nodes_[n];
+        if (node.search != search_) {
+            near_.push_back(n);
+        } else if (distance >= node.distance) {
+            return;
         }
-        return links_.data() + first_link_[n];
+        if (node.search != search_ || !node.queued) queue_.push_back(n);
+        node = {distance, search_, true};
     }
 };
 
@@ -140,67 +158,122 @@ class NearGraph {
 
 class CurvatureField::Impl {
   public:
-    Impl(const Surface& surface, double h, const Options& options)
+    Impl(const Surface& surface, double h, const Options& options, int threads)
         : surface_(surface),
+          radius_(options.curvature_radius * h),
           sigma_(options.curvature_smoothing * h),
+          limit_(3.0 * sigma_ * (1.0 + 1e-9)),  // on grids neighbours lie at just 3 sigma: rounding must not decide
           negligible_(1e-4 / h),
-          near_(surface),
-          disks_(surface, options.curvature_radius * h) {}
-
-    const VertexCurvature& at(int vertex) {
-        const int n = asked_.insert(vertex);
-        if (n == static_cast<int>(curvatures_.size())) curvatures_.push_back(principal(smoothed(vertex), vertex_normal(vertex)));
-        return curvatures_[n];
+          threads_(threads),
+          near_(surface) {
+        workers_.emplace_back(surface, radius_);
     }
 
-    double dihedral(int halfedge) { return disks_.dihedral(halfedge); }
+    VertexCurvature at(int vertex) {
+        const int n = near_.number(vertex);
+        if (n >= static_cast<int>(place_.size()) || place_[n] < 0) prepare(std::span(&vertex, 1), {});
+        return curvatures_[place_[n]];
+    }
+
+    /// In three steps, of which the first finds all that the others read: the vertices nearby, their tensors, and the curvatures.
+    void prepare(std::span<const int> vertices, const Beat& beat) {
+        const std::vector<int> fresh = without_curvature(vertices);
+        if (fresh.empty()) return;
+        make_tensors(fresh, beat);
+        std::vector<VertexCurvature> made(fresh.size());
+        in_parallel(fresh.size(), beat, [&](Worker& worker, std::size_t i) {
+            const int vertex = near_.vertex(fresh[i]);
+            made[i] = principal(smoothed(worker, fresh[i]), vertex_normal(vertex));
+        });
+        for (std::size_t i = 0; i < fresh.size(); ++i) {
+            place_[fresh[i]] = static_cast<int>(curvatures_.size());
+            curvatures_.push_back(made[i]);
+        }
+    }
+
+    double dihedral(int halfedge) { return workers_.front().disks.dihedral(halfedge); }
 
   private:
+    /// What one thread works with. What it keeps only saves it work: results do not depend on who made them.
+    struct Worker {
+        Worker(const Surface& surface, double radius) : disks(surface, radius) {}
+        DiskTensors disks;
+        NearSearch search;
+    };
+    static constexpr std::size_t worth_a_thread = 150;  // vertices
+
     const Surface& surface_;
-    double sigma_, negligible_;
+    double radius_, sigma_, limit_, negligible_;
+    int threads_;
     NearGraph near_;
-    DiskTensors disks_;
-    IndexMap asked_;
-    std::deque<VertexCurvature> curvatures_;  // a deque, so that references stay
-    std::vector<Symmetric> tensors_;          // by number in near_
+    std::deque<Worker> workers_;
+    std::vector<VertexCurvature> curvatures_;
+    // Of each vertex by its number in near_:
+    std::vector<int> place_;  // in curvatures_, or -1
+    std::vector<Symmetric> tensors_;
     std::vector<char> has_tensor_;
+
+    /// Calls work(worker, i) for every i below count, each worker in a run of its own.
+    template <class Work>
+    void in_parallel(std::size_t count, const Beat& beat, Work&& work) {
+        const auto most = static_cast<int>(count / worth_a_thread) + 1;
+        const int workers = std::min(threads_, most);
+        while (static_cast<int>(workers_.size()) < workers) workers_.emplace_back(surface_, radius_);
+        const auto run = [&](int w) {
+            for (std::size_t i = count * w / workers; i < count * (w + 1) / workers; ++i) {
+                if (beat && i % 64 == 0) beat();
+                work(workers_[w], i);
+            }
+        };
+        parallel_for(workers, workers, run, [] {});
+    }
+
+    std::vector<int> without_curvature(std::span<const int> vertices) {
+        std::vector<int> fresh;
+        for (const int v : vertices) {
+            const int n = near_.number(v);
+            if (n >= static_cast<int>(place_.size())) place_.resize(2 * n + 1, -1);
+            if (place_[n] < 0) fresh.push_back(n);
+        }
+        return fresh;
+    }
+
+    void make_tensors(const std::vector<int>& fresh, const Beat& beat) {
+        const auto nearby = workers_.front().search.run(near_, fresh, limit_, [&](int n) { near_.expand(n); });
+        tensors_.resize(near_.size());
+        has_tensor_.resize(near_.size(), 0);
+        std::vector<int> missing;
+        std::ranges::copy_if(nearby, std::back_inserter(missing), [&](int n) { return !has_tensor_[n]; });
+        in_parallel(missing.size(), beat,
+                    [&](Worker& worker, std::size_t i) { tensors_[missing[i]] = worker.disks.at(near_.vertex(missing[i])); });
+        for (const int n : missing) has_tensor_[n] = 1;
+    }
 
     Vec3 vertex_normal(int vertex) const {
         Vec3 sum = Vec3::Zero();
-        for_each_face(surface_, vertex, [&](int face) {
-            const auto corners = surface_.face(face);
-            const auto i = static_cast<std::size_t>(std::ranges::find(corners, vertex) - corners.begin());
-            const Vec3 area = polygon_area_vector(surface_, face);
-            if (area.norm() > 0.0) sum += corner_angle(surface_, corners, i) * area.normalized();
-        });
+        for_each_face(surface_, vertex, [&](int face) { sum += weighted_normal(face, vertex); });
         return sum.norm() > 1e-12 ? Vec3(sum.normalized()) : Vec3(Vec3::UnitZ());
     }
 
-    /// The tensor of a vertex by its number in near_.
-    const Symmetric& tensor(int n) {
-        if (n >= static_cast<int>(tensors_.size())) {
-            tensors_.resize(2 * n + 1);
-            has_tensor_.resize(2 * n + 1, 0);
-        }
-        if (!has_tensor_[n]) {
-            tensors_[n] = disks_.at(near_.vertex(n));
-            has_tensor_[n] = 1;
-        }
-        return tensors_[n];
+    /// The polygon's unit normal times its angle at the vertex.
+    Vec3 weighted_normal(int face, int vertex) const {
+        const auto corners = surface_.face(face);
+        const auto i = static_cast<std::size_t>(std::ranges::find(corners, vertex) - corners.begin());
+        const Vec3 area = polygon_area_vector(surface_, face);
+        const double size = area.norm();
+        return size > 0.0 ? Vec3((corner_angle(surface_, corners, i) / size) * area) : Vec3(Vec3::Zero());
     }
 
     /// The tensors round a vertex, averaged term by term (Alliez et al. 2003).
-    Symmetric smoothed(int vertex) {
-        const int start = near_.number(vertex);
-        if (sigma_ == 0.0) return tensor(start);
+    Symmetric smoothed(Worker& worker, int n) {
+        if (sigma_ == 0.0) return tensors_[n];
         Symmetric sum = Symmetric::Zero();
         double weights = 0.0;
-        // On grids neighbours lie at just 3 sigma: rounding must not decide.
-        near_.for_each_within(start, 3.0 * sigma_ * (1.0 + 1e-9), [&](int n, double d) {
-            const double weight = std::exp(-d * d / (2.0 * sigma_ * sigma_));
-            sum += weight * tensor(n);
+        for (const int other : worker.search.run(near_, std::span(&n, 1), limit_, [](int) {})) {
+            const double d = worker.search.distance(other), weight = std::exp(-d * d / (2.0 * sigma_ * sigma_));
+            sum += weight * tensors_[other];
             weights += weight;
-        });
+        }
         return sum / weights;
     }
 
@@ -223,12 +296,13 @@ class CurvatureField::Impl {
     }
 };
 
-CurvatureField::CurvatureField(const Surface& surface, double h, const Options& options)
-    : impl_(std::make_unique<Impl>(surface, h, options)) {}
+CurvatureField::CurvatureField(const Surface& surface, double h, const Options& options, int threads)
+    : impl_(std::make_unique<Impl>(surface, h, options, threads)) {}
 CurvatureField::~CurvatureField() = default;
 CurvatureField::CurvatureField(CurvatureField&&) noexcept = default;
 
-const VertexCurvature& CurvatureField::at(int vertex) const { return impl_->at(vertex); }
+void CurvatureField::prepare(std::span<const int> vertices, const Beat& beat) const { impl_->prepare(vertices, beat); }
+VertexCurvature CurvatureField::at(int vertex) const { return impl_->at(vertex); }
 double CurvatureField::dihedral(int halfedge) const { return impl_->dihedral(halfedge); }
 
 }  // namespace mrc

@@ -40,11 +40,15 @@ Symmetric DiskTensors::at(int vertex) {
     double area = 0.0;
     Symmetric sum = Symmetric::Zero();
     for (std::size_t i = 0; i < disk_.size(); ++i) {
+        bool whole = true;
         for (int side = 0; side < 3; ++side) {
-            if (!cut(triangles_[disk_[i]].edges[side], centre, sum)) continue;
+            const int edge = triangles_[disk_[i]].edges[side];
+            const bool met = cut(edge, centre, sum);
+            whole &= met && spans_[edge].enter == 0.0 && spans_[edge].leave == 1.0;
+            if (!met) continue;
             if (const int next = neighbour(disk_[i], side); next != none) meet(next);
         }
-        area += area_inside(triangles_[disk_[i]], centre);
+        area += whole ? 0.5 * triangles_[disk_[i]].doubled_area : area_inside(triangles_[disk_[i]], centre);
     }
     if (area > 0.0) sum /= area;
     return sum;

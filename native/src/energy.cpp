@@ -3,7 +3,6 @@
 
 #include "guide.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <cmath>
@@ -15,11 +14,21 @@ const Vec3& feature_direction(const VertexCurvature& c, Feature feature) {
     return feature == Feature::ridge ? c.direction_min : c.direction_max;
 }
 
-/// p p^T; an umbilic point has no p and gives the mean over all tangent directions.
-Eigen::Matrix3d projector(const VertexCurvature& c, Feature feature) {
-    if (c.umbilic) return 0.5 * (Eigen::Matrix3d::Identity() - c.normal * c.normal.transpose());
-    const Vec3& p = feature_direction(c, feature);
-    return p * p.transpose();
+/// A symmetric matrix in a tangent plane: xx, xy, yy.
+using Planar = Eigen::Vector3d;
+
+/// p p^T, seen in a plane; an umbilic point has no p and gives the mean over all tangent directions.
+Planar projector(const VertexCurvature& c, Feature feature, const Eigen::Matrix<double, 3, 2>& basis) {
+    const Eigen::Vector2d p = basis.transpose() * (c.umbilic ? c.normal : feature_direction(c, feature));
+    const Planar square(p.x() * p.x(), p.x() * p.y(), p.y() * p.y());
+    return c.umbilic ? Planar(0.5 * (Planar(1.0, 0.0, 1.0) - square)) : square;
+}
+
+/// The unit eigenvector of the larger eigenvalue. Of the two ways to write it the one without cancellation is taken.
+Eigen::Vector2d main_axis(const Planar& m) {
+    const double half = 0.5 * (m[0] - m[2]), size = std::sqrt(half * half + m[1] * m[1]);
+    const Eigen::Vector2d axis = half > 0.0 ? Eigen::Vector2d(half + size, m[1]) : Eigen::Vector2d(m[1], size - half);
+    return size > 0.0 ? Eigen::Vector2d(axis.normalized()) : Eigen::Vector2d(1.0, 0.0);
 }
 
 }  // namespace
@@ -43,20 +52,23 @@ Frame Energy::frame(const SurfacePoint& point) const {
 }
 
 Frame Energy::vertex_frame(int vertex) const {
-    const VertexCurvature& c = field_.at(vertex);
-    Frame frame{c.normal, feature_direction(c, options_.feature), 0.0, c.umbilic, 0.0};
+    const VertexCurvature c = field_.at(vertex);
+    Frame frame;
+    frame.normal = c.normal;
+    frame.direction = feature_direction(c, options_.feature);
+    frame.umbilic = c.umbilic;
     finish(frame, feature(vertex), vertex_point(vertex));
     return frame;
 }
 
 /// Negative in a valley, cut off at the clamp.
 double Energy::feature(int vertex) const {
-    const VertexCurvature& c = field_.at(vertex);
+    const VertexCurvature c = field_.at(vertex);
     return std::max(options_.feature == Feature::ridge ? -c.kappa_max : c.kappa_min, -scales_.clamp);
 }
 
 Frame Energy::interpolated_frame(const SurfacePoint& point) const {
-    const VertexCurvature &a = field_.at(point.a), &b = field_.at(point.b);
+    const VertexCurvature a = field_.at(point.a), b = field_.at(point.b);
     const auto blend = [&](const auto& x, const auto& y) { return ((1.0 - point.t) * x + point.t * y).eval(); };
     const auto mix = [&](double x, double y) { return (1.0 - point.t) * x + point.t * y; };
     Frame frame;
@@ -65,19 +77,20 @@ Frame Energy::interpolated_frame(const SurfacePoint& point) const {
     Eigen::Matrix<double, 3, 2> basis;
     basis.col(0) = frame.normal.unitOrthogonal();
     basis.col(1) = frame.normal.cross(basis.col(0));
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
-    solver.computeDirect(basis.transpose() * blend(projector(a, options_.feature), projector(b, options_.feature)) * basis);
-    frame.direction = (basis * solver.eigenvectors().col(1)).normalized();
+    const Planar seen = blend(projector(a, options_.feature, basis), projector(b, options_.feature, basis));
+    frame.direction = basis * main_axis(seen);
     const double difference = mix(a.kappa_max - a.kappa_min, b.kappa_max - b.kappa_min);
-    frame.umbilic = difference < negligible_ || solver.eigenvalues()[1] - solver.eigenvalues()[0] < 1e-9;
+    frame.umbilic = difference < negligible_ || std::max(std::abs(seen[0] - seen[2]), 2.0 * std::abs(seen[1])) < 1e-9;
     const double kappa = mix(feature(point.a), feature(point.b));
     finish(frame, std::abs(kappa) < negligible_ ? 0.0 : kappa, point);
     return frame;
 }
 
 void Energy::finish(Frame& frame, double kappa, const SurfacePoint& point) const {
-    const double size = scales_.K * std::pow(std::abs(kappa) / scales_.K, options_.feature_exponent);
-    frame.kappa = kappa < 0.0 ? -size : size;
+    frame.kappa = kappa;
+    if (options_.feature_exponent != 1.0)
+        frame.kappa = std::copysign(scales_.K * std::pow(std::abs(kappa) / scales_.K, options_.feature_exponent), kappa);
+    frame.across = frame.normal.cross(frame.direction);
     if (options_.anchor > 0.0) {
         const double distance = from_given_.at(point) / (scales_.L0 / (2.0 * std::numbers::pi));
         frame.potential += options_.anchor * scales_.K * distance * distance;
@@ -98,16 +111,8 @@ double Energy::attraction(const SurfacePoint& point) const {
 }
 
 double Energy::crease_cost(int halfedge) const {
-    if (surface_.diagonal(halfedge)) return plain_crease_cost();
+    if (options_.crease == 0.0 || surface_.diagonal(halfedge)) return plain_crease_cost();
     return plain_crease_cost() * std::min(3.0, std::exp(3.0 * std::sin(field_.dihedral(halfedge))));
-}
-
-ChordEnd Energy::chord_end(const Frame& frame, const Vec3& chord, double crease) {
-    return {{chord.dot(frame.direction), chord.dot(frame.normal.cross(frame.direction))}, chord.norm(), crease};
-}
-
-double Energy::numerator(const Frame& frame, const ChordEnd& e1, const ChordEnd& e2) const {
-    return bending(frame, e1, e2) + 0.5 * (e1.length * (frame.potential + e1.crease) + e2.length * (frame.potential + e2.crease));
 }
 
 double Energy::region_factor() const {
@@ -120,29 +125,6 @@ Objective Energy::objective() const {
     if (options_.length_bias == 0.0) return {};
     const double length = options_.denominator == Denominator::arcs ? scales_.n0 : scales_.L0;
     return {unit(), options_.length_bias / length, options_.length_floor * length};
-}
-
-double Energy::bending(const Frame& frame, const ChordEnd& e1, const ChordEnd& e2) const {
-    // Without a direction the contour's own is taken: that of e1' + e2'.
-    Eigen::Vector2d p(1.0, 0.0);
-    if (frame.umbilic) {
-        const Eigen::Vector2d sum = e1.tangent + e2.tangent;
-        p = sum.norm() > 0.0 ? Eigen::Vector2d(sum.normalized()) : Eigen::Vector2d(0.0, 0.0);
-    }
-    const auto cosine = [&](const ChordEnd& e) {
-        const double projected = e.tangent.norm();
-        if (projected == 0.0) return 0.0;
-        const double c = e.tangent.dot(p) / projected;
-        if (options_.direction_exponent == 1.0) return c;
-        return std::copysign(std::pow(std::abs(c), options_.direction_exponent), c);
-    };
-    const double along = std::abs(e1.length * cosine(e1) + e2.length * cosine(e2));  // A
-    if (frame.kappa < 0.0) return 0.5 * frame.kappa * along;
-    return 0.5 * scales_.kappa_0 * (e1.length + e2.length - along);
-}
-
-bool Energy::turns_too_much(const ChordEnd& e1, const ChordEnd& e2) const {
-    return e1.tangent.dot(e2.tangent) < least_cosine_ * e1.tangent.norm() * e2.tangent.norm();
 }
 
 namespace {
@@ -186,14 +168,15 @@ Measure measure(const Surface& surface, const Energy& energy, const Contour& giv
         const Frame frame = energy.frame(contour.points[i]);
         const auto end = [&](std::size_t from, std::size_t to) {
             const double crease = segment_crease(surface, energy, contour.points[from % count], contour.points[to % count]);
-            return Energy::chord_end(frame, position(to) - position(from), crease);
+            return energy.chord_end(frame, position(to) - position(from), crease);
         };
         // Open curves: half a chord at each end, with the end's own curvature.
         const bool first = !contour.closed && i == 0, last = !contour.closed && i + 1 == count;
         const ChordEnd in = first ? ChordEnd{} : end(i + count - 1, i + count), out = last ? ChordEnd{} : end(i, i + 1);
-        result.numerator += energy.numerator(frame, in, out);
-        result.length += energy.denominator(in, out);
-        bending += energy.bending(frame, in, out);
+        const ArcWeights weights = energy.weights(frame);
+        result.numerator += weights.numerator(in, out);
+        result.length += weights.denominator(in, out);
+        bending += weights.bending(in, out);
     }
     if (!(result.length > 0.0)) throw InvalidInput("the contour has length 0: all its vertices lie at one point");
     result.ratio = result.numerator / result.length;

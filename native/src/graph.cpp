@@ -2,6 +2,7 @@
 #include <mrc/graph.h>
 
 #include "ambient.h"
+#include "line_graph.h"
 #include "memory.h"
 #include "requirements.h"
 
@@ -19,13 +20,11 @@ namespace {
 
 using Halfedge = PatchMesh::HalfedgeHandle;
 
-enum class Climb : std::uint8_t { rising, falling, along };  // level chords by rank, and those that the flow runs along
-
 struct DirectedSegment {
     int tail, head;
-    int segment;
-    int crossings;
     double increment;
+    int segment;
+    bool crosses;  // the level, at most once
     Climb climb;
 };
 
@@ -79,7 +78,7 @@ class GraphBuilder {
     ContourGraph graph_;
     std::vector<DirectedSegment> directed_;
     Requirements requirements_;
-    std::vector<int> given_place_;  // of each chord: its place in the given contour, or -1
+    std::vector<ChordSite> sites_;  // of the chords
 
     void choose_level() {
         if (patch_.closed) graph_.level = cheapest_level(ambient_.values, ambient_.segments);
@@ -140,7 +139,7 @@ class GraphBuilder {
                        std::abs(increment) < 1.0) {  // no closed contour holds a chord that goes all the way round
                 const bool forward = increment > 0.0;
                 directed_.push_back(
-                    {forward ? s.a : s.b, forward ? s.b : s.a, index(s), std::abs(crossings), std::abs(increment), Climb::along});
+                    {forward ? s.a : s.b, forward ? s.b : s.a, std::abs(increment), index(s), crossings != 0, Climb::along});
             }
         }
     }
@@ -150,14 +149,14 @@ class GraphBuilder {
         const double length = (position(s.b) - position(s.a)).norm();
         if (std::abs(difference) <= 1e-9 * length) return;
         const int low = difference > 0.0 ? s.a : s.b, high = difference > 0.0 ? s.b : s.a;
-        directed_.push_back({low, high, index(s), 0, 0.0, Climb::rising});
-        directed_.push_back({high, low, index(s), 0, 0.0, Climb::falling});
+        directed_.push_back({low, high, 0.0, index(s), false, Climb::rising});
+        directed_.push_back({high, low, 0.0, index(s), false, Climb::falling});
     }
 
     Requirements::Place place(int point) const { return {graph_.points[point].level, graph_.points[point].rank, point}; }
     Requirements::Span span(const DirectedSegment& d) const {
         const GraphPoint &tail = graph_.points[d.tail], &head = graph_.points[d.head];
-        return {tail.level, head.level, d.crossings > 0, tail.rank, head.rank, d.segment};
+        return {tail.level, head.level, d.crosses, tail.rank, head.rank, d.segment};
     }
 
     /// The band's vertex for a required one.
@@ -228,69 +227,89 @@ class GraphBuilder {
         if (beat_ && i % 1024 == 0) beat_();
     }
 
-    /// Where a chord stands in the topological order: by the flow at the tail; level chords first, each kind by rank in its own
-    /// direction; those that cross the cut last.
+    /// The points in the order of level, rank and number, and the number of each point's level.
+    struct Places {
+        std::vector<int> place, level;  // of each point
+    };
+
+    Places sort_points() const {
+        struct Key {
+            double level, rank;
+            int point;
+            auto operator<=>(const Key&) const = default;
+        };
+        std::vector<Key> keys;
+        keys.reserve(graph_.points.size());
+        for (const GraphPoint& p : graph_.points) keys.push_back({p.level, p.rank, static_cast<int>(keys.size())});
+        std::ranges::sort(keys);
+        Places places{std::vector<int>(keys.size()), std::vector<int>(keys.size())};
+        for (int i = 0, level = 0; i < static_cast<int>(keys.size()); ++i) {
+            if (i > 0 && keys[i].level > keys[i - 1].level) ++level;
+            places.place[keys[i].point] = i;
+            places.level[keys[i].point] = level;
+        }
+        return places;
+    }
+
+    /// Where a chord stands among those that leave points of one level: level chords first, each kind by rank in its own direction.
     struct ChordKey {
-        int crossings;
-        double across;
-        int level;  // of the tail, by number
-        Climb climb;
-        int tail, head;  // by their places among the points
-        std::size_t chord;
+        std::uint64_t order;  // climb, tail, head: the ends by their places among the points
+        int chord;
         auto operator<=>(const ChordKey&) const = default;
     };
 
-    std::vector<ChordKey> chord_keys() const {
-        const std::size_t count = graph_.points.size();
-        std::vector<int> order(count), place(count), level(count, 0);
-        for (std::size_t i = 0; i < count; ++i) order[i] = static_cast<int>(i);
-        std::ranges::sort(order, {}, [&](int p) { return std::tuple(graph_.points[p].level, graph_.points[p].rank, p); });
-        for (std::size_t i = 0; i < count; ++i) {
-            place[order[i]] = static_cast<int>(i);
-            if (i > 0) level[order[i]] = level[order[i - 1]] + (graph_.points[order[i]].level > graph_.points[order[i - 1]].level);
+    ChordKey chord_key(int chord, const Places& places) const {
+        constexpr std::uint64_t most = (1ULL << 31) - 1;
+        const DirectedSegment& d = directed_[chord];
+        const auto tail = static_cast<std::uint64_t>(places.place[d.tail]), head = static_cast<std::uint64_t>(places.place[d.head]);
+        const std::uint64_t from = d.climb == Climb::falling ? most - tail : tail;
+        return {static_cast<std::uint64_t>(d.climb) << 62 | from << 31 | head, chord};
+    }
+
+    /// The topological order: by the flow at the tail, in buckets of one level each; last what crosses the cut, by rank.
+    std::vector<ChordKey> sorted_keys() const {
+        const Places places = sort_points();
+        const std::size_t last = graph_.points.size();  // no level has a higher number
+        const auto bucket = [&](const DirectedSegment& d) {
+            return d.crosses ? last : static_cast<std::size_t>(places.level[d.tail]);
+        };
+        std::vector<int> next(last + 2, 0);
+        for (const DirectedSegment& d : directed_) ++next[bucket(d) + 1];
+        std::partial_sum(next.begin(), next.end(), next.begin());
+        std::vector<ChordKey> keys(directed_.size());
+        for (int i = 0; i < static_cast<int>(directed_.size()); ++i) keys[next[bucket(directed_[i])]++] = chord_key(i, places);
+        auto begin = keys.begin();
+        for (std::size_t b = 0; b < last; ++b) {
+            beat(b);
+            const auto end = keys.begin() + next[b];  // by now
+            std::sort(begin, end);
+            begin = end;
         }
-        std::vector<ChordKey> keys;
-        keys.reserve(directed_.size());
-        for (std::size_t i = 0; i < directed_.size(); ++i) {
-            const DirectedSegment& d = directed_[i];
-            const double across = d.crossings ? graph_.points[d.tail].rank + graph_.points[d.head].rank : 0.0;
-            const int tail = d.climb == Climb::falling ? -place[d.tail] : place[d.tail];
-            keys.push_back({d.crossings, across, level[d.tail], d.climb, tail, place[d.head], i});
-        }
+        const auto across = [&](const ChordKey& key) {
+            const DirectedSegment& d = directed_[key.chord];
+            return std::pair(graph_.points[d.tail].rank + graph_.points[d.head].rank, key);
+        };
+        std::sort(begin, keys.end(), [&](const ChordKey& a, const ChordKey& b) { return across(a) < across(b); });
         return keys;
     }
 
-    /// Sorted in buckets of one level each, and one for what crosses the cut.
     void sort_chords() {
-        const std::vector<ChordKey> keys = chord_keys();
-        beat();
-        const std::size_t last = graph_.points.size();  // no level has a higher number
-        const auto bucket = [&](const ChordKey& key) { return key.crossings > 0 ? last : static_cast<std::size_t>(key.level); };
-        std::vector<std::size_t> end(last + 1, 0);
-        for (const ChordKey& key : keys) ++end[bucket(key)];
-        std::inclusive_scan(end.begin(), end.end(), end.begin());
-        std::vector<std::size_t> next(end.size(), 0);
-        std::copy(end.begin(), end.end() - 1, next.begin() + 1);
-        std::vector<ChordKey> sorted(keys.size());
-        for (const ChordKey& key : keys) sorted[next[bucket(key)]++] = key;
-        for (std::size_t b = 0, begin = 0; b < end.size(); begin = end[b++]) {
-            beat(b);
-            std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(begin), sorted.begin() + static_cast<std::ptrdiff_t>(end[b]));
-        }
-        std::vector<DirectedSegment> directed;
-        directed.reserve(sorted.size());
-        graph_.chords.reserve(sorted.size());
-        for (const ChordKey& key : sorted) {
-            const DirectedSegment& d = directed.emplace_back(directed_[key.chord]);
+        const std::vector<ChordKey> keys = sorted_keys();
+        graph_.chords.reserve(keys.size());
+        sites_.reserve(keys.size());
+        for (const ChordKey& key : keys) {
+            const DirectedSegment& d = directed_[key.chord];
+            const Segment& s = ambient_.segments[d.segment];
             graph_.chords.push_back({d.tail, d.head, d.increment});
-            graph_.crossing += d.crossings;
+            sites_.push_back({s.halfedge, s.triangle, -1, d.climb});
+            graph_.crossing += d.crosses;
         }
-        directed_ = std::move(directed);
+        directed_ = {};
+        ambient_.segments = {};
     }
 
     /// The places of the chords that the given contour runs along.
     void find_given() {
-        given_place_.assign(graph_.chords.size(), -1);
         const std::size_t count = given_.size();
         std::vector<int> place(graph_.points.size(), -1);
         for (std::size_t i = 0; i < count; ++i) {
@@ -300,29 +319,8 @@ class GraphBuilder {
         for (std::size_t c = 0; c < graph_.chords.size(); ++c) {
             const int tail = place[graph_.chords[c].tail], head = place[graph_.chords[c].head];
             const bool follows = head == tail + 1 || (patch_.closed && head == 0 && tail + 1 == static_cast<int>(count));
-            if (tail >= 0 && head >= 0 && follows) given_place_[c] = tail;
+            if (tail >= 0 && head >= 0 && follows) sites_[c].given = tail;
         }
-    }
-
-    bool consecutive_in_given(int in, int out) const {
-        return given_place_[in] >= 0 && given_place_[out] >= 0 &&
-               given_place_[out] == (given_place_[in] + 1) % static_cast<int>(given_.size());
-    }
-
-    static int sign(Climb climb) { return climb == Climb::rising ? 1 : climb == Climb::falling ? -1 : 0; }
-
-    bool joins(int in, int out, const ChordEnd& end, const ChordEnd& start) const {
-        const DirectedSegment &e1 = directed_[in], &e2 = directed_[out];
-        if (e1.tail == e2.head) return false;
-        // A contour passes a level by one monotone chain.
-        if (e1.climb != Climb::along && e2.climb != Climb::along && e1.climb != e2.climb) return false;
-        const int climb_in = sign(e1.climb), climb_out = sign(e2.climb);
-        if (!requirements_.empty() && !requirements_.allows_arc(place(e2.tail), climb_in, climb_out)) return false;
-        if (consecutive_in_given(in, out)) return true;
-        // Two chords inside one triangle are never better than one (3.2).
-        const int triangle = ambient_.segments[e1.segment].triangle;
-        if (triangle >= 0 && triangle == ambient_.segments[e2.segment].triangle) return false;
-        return !energy_.turns_too_much(end, start);
     }
 
     /// The points at which an open curve may end: its own end, or the piece of mesh border within the band that holds it.
@@ -344,71 +342,46 @@ class GraphBuilder {
 
     /// Any chord that leaves the first end may begin a path, and any that reaches the last may end it, each with the outer half that
     /// eq. 3.3 leaves out.
-    void add_open_ends(const std::vector<Frame>& frames, const std::vector<ChordEnd>& starts, const std::vector<ChordEnd>& ends) {
+    void add_open_ends() {
         const auto& given = given_;
         const std::vector<char> first = end_points(given.front(), given.back(), patch_.first_end_held);
         const std::vector<char> last = end_points(given.back(), given.front(), patch_.last_end_held);
-        for (std::size_t c = 0; c < graph_.chords.size(); ++c) {
+        for (int c = 0; c < static_cast<int>(graph_.chords.size()); ++c) {
             const auto [tail, head, increment] = graph_.chords[c];
-            const int node = static_cast<int>(c);
-            const auto half = [&](int point, const ChordEnd& in, const ChordEnd& out) {
-                return Terminal{node, energy_.numerator(frames[point], in, out), energy_.denominator(in, out)};
-            };
             // A path that begins or ends at the level of a required vertex begins or ends there.
-            const int climb = sign(directed_[c].climb);
-            const bool may_begin = first[tail] && requirements_.allows_arc(place(tail), 0, climb);
-            const bool may_end = last[head] && requirements_.allows_arc(place(head), climb, 0);
-            if (may_begin) graph_.search.sources.push_back(half(tail, {}, starts[c]));
-            if (may_end) graph_.search.destinations.push_back(half(head, ends[c], {}));
+            const int climb = sign(sites_[c].climb);
+            if (first[tail] && requirements_.allows_arc(place(tail), 0, climb)) {
+                const Frame frame = energy_.frame(graph_.points[tail].place);
+                graph_.search.sources.push_back(half(c, frame, {}, chord_end(c, frame)));
+            }
+            if (last[head] && requirements_.allows_arc(place(head), climb, 0)) {
+                const Frame frame = energy_.frame(graph_.points[head].place);
+                graph_.search.destinations.push_back(half(c, frame, chord_end(c, frame), {}));
+            }
         }
     }
 
-    /// The arcs: pairs of chords, the second of which starts where the first ends.
+    ChordEnd chord_end(int chord, const Frame& frame) const {
+        const Chord& c = graph_.chords[chord];
+        const int halfedge = sites_[chord].halfedge;
+        return energy_.chord_end(frame, position(c.head) - position(c.tail),
+                                 halfedge >= 0 ? energy_.crease_cost(halfedge) : energy_.plain_crease_cost());
+    }
+    Terminal half(int node, const Frame& frame, const ChordEnd& in, const ChordEnd& out) const {
+        const ArcWeights weights = energy_.weights(frame);
+        return {node, weights.numerator(in, out), weights.denominator(in, out)};
+    }
+
     void join() {
-        std::vector<Frame> frames;
-        for (const GraphPoint& p : graph_.points) {
-            beat(frames.size());
-            frames.push_back(energy_.frame(p.place));
-        }
-        std::vector<ChordEnd> starts, ends;
-        std::vector<double> enclosed(graph_.chords.size(), 0.0);  // half of what each chord adds to the region term
-        std::vector<std::vector<int>> arriving(graph_.points.size());
-        for (std::size_t c = 0; c < graph_.chords.size(); ++c) {
-            beat(c);
-            const Chord& chord = graph_.chords[c];
-            const Vec3 along = position(chord.head) - position(chord.tail);
-            const int halfedge = ambient_.segments[directed_[c].segment].halfedge;
-            const double crease = halfedge >= 0 ? energy_.crease_cost(halfedge) : energy_.plain_crease_cost();
-            starts.push_back(Energy::chord_end(frames[chord.tail], along, crease));
-            ends.push_back(Energy::chord_end(frames[chord.head], along, crease));
-            arriving[chord.head].push_back(static_cast<int>(c));
-            if (region_) {
-                enclosed[c] = 0.5 * energy_.region_factor() *
-                              region_->along(graph_.points[chord.tail].place, graph_.points[chord.head].place);
-            }
-        }
-        const int chords = static_cast<int>(graph_.chords.size()), plain = chords - graph_.crossing;
-        const auto node_after = [&](int c) { return c < plain ? graph_.crossing + c : c - plain; };
-        WeightedGraph& search = graph_.search;
-        search.first_arc.assign(graph_.crossing + 1, 0);
-        for (int out = 0; out < chords; ++out) {
-            beat(out);
-            const int point = graph_.chords[out].tail;
-            for (const int in : arriving[point]) {
-                if (!joins(in, out, ends[in], starts[out])) continue;
-                if (in >= plain && out >= plain) continue;
-                search.from.push_back(node_after(in));
-                search.f.push_back(energy_.numerator(frames[point], ends[in], starts[out]) + enclosed[in] + enclosed[out]);
-                search.g.push_back(energy_.denominator(ends[in], starts[out]));
-            }
-            search.first_arc.push_back(static_cast<int>(search.from.size()));
-        }
-        search.matched = patch_.closed;
+        graph_.search = make_line_graph(
+            surface_, {graph_.points, graph_.chords, sites_, graph_.crossing, static_cast<int>(given_.size()), requirements_},
+            energy_, region_, beat_);
+        graph_.search.matched = patch_.closed;
         for (int i = 0; i < graph_.crossing; ++i) {
-            search.sources.push_back({i, 0.0, 0.0});
-            search.destinations.push_back({chords + i, 0.0, 0.0});
+            graph_.search.sources.push_back({i, 0.0, 0.0});
+            graph_.search.destinations.push_back({static_cast<int>(graph_.chords.size()) + i, 0.0, 0.0});
         }
-        if (!patch_.closed) add_open_ends(frames, starts, ends);
+        if (!patch_.closed) add_open_ends();
     }
 };
 

@@ -49,16 +49,17 @@ std::string where_it_stops(const ContourGraph& graph, const Wishes& wishes, cons
 }  // namespace
 
 Optimization::Optimization(const Surface& surface, const Contour& contour, const Options& options, const Wishes& wishes,
-                           const Scales* scales)
+                           const Scales* scales, int threads)
     : surface_(surface),
       options_(options),
       phase_options_(options),
       wishes_(wishes),
       given_(contour),
+      threads_(threads),
       stopwatch_(result_.statistics.seconds),
       feasible_(meets(contour, wishes)) {
-    setting_ = stopwatch_.time("curvature",
-                               [&] { return std::make_unique<Setting>(surface, contour, options, wishes.attractors, scales); });
+    setting_ = stopwatch_.time(
+        "curvature", [&] { return std::make_unique<Setting>(surface, contour, options, wishes.attractors, scales, threads); });
     if (!wishes_.region_density.empty() && options_.region_weight != 0.0) {
         enclosed_ = enclosed_change(surface_, wishes_.region_density, setting_->scales.given, given_);
     }
@@ -121,6 +122,7 @@ void Optimization::search(Partition* partition, int number, const Beat& beat) {
     }
     const Flow flow = stopwatch_.time("flow", [&] { return make_flow(*patch_, band_, options_); });
     if (beat) beat();
+    stopwatch_.time("curvature", [&] { return prepare_curvature(beat); });
     const std::optional<EdgeForm> region = make_region_form(flow);
     const ContourGraph graph = stopwatch_.time("graph", [&] {
         return make_graph(surface_, *patch_, band_, flow, setting_->energy, options_, wishes_, steiner_,
@@ -138,6 +140,16 @@ void Optimization::search(Partition* partition, int number, const Beat& beat) {
     explain(best);
     moved_ = below(result_.objective, before);
     moving_ = moved_ && !featureless();
+}
+
+/// Evaluates the curvature of all vertices of the band at once; gives their number.
+std::size_t Optimization::prepare_curvature(const Beat& beat) const {
+    std::vector<int> vertices;
+    for (std::size_t v = 0; v < patch_->vertex.size(); ++v) {
+        if (band_.side[v] != Side::outside) vertices.push_back(patch_->vertex[v]);
+    }
+    setting_->field.prepare(vertices, beat);
+    return vertices.size();
 }
 
 Result Optimization::finish() {

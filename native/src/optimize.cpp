@@ -7,6 +7,7 @@
 #include "watch.h"
 
 #include <memory>
+#include <numeric>
 #include <string>
 
 namespace mrc {
@@ -53,7 +54,7 @@ class Company {
             const Scales* scales = task.scales ? &*task.scales : nullptr;
             const Contour checked = checked_input(surface, task.contour, options, task.wishes, scales);
             check_barriers(surface, checked, task.wishes);
-            contours_[i] = std::make_unique<Optimization>(surface, checked, options, task.wishes, scales);
+            contours_[i] = std::make_unique<Optimization>(surface, checked, options, task.wishes, scales, threads_each());
         });
     }
 
@@ -82,6 +83,8 @@ class Company {
     /// A refined search needs the regular result of the whole surface to begin from.
     static bool whole_and_refined(const Options& options) { return !options.width && options.refinement > 0; }
     int count() const { return static_cast<int>(contours_.size()); }
+    /// Where there are fewer contours than threads, a contour's own stages share the others.
+    int threads_each() const { return std::max(1, thread_count(options_.threads) / std::max(1, count())); }
 
     /// An iteration has three steps: patches, bands, searches.
     void report(int step) { watch_.advance((3.0 * iteration_ + step) / (3.0 * (regular_iterations_ + options_.iterations))); }
@@ -197,8 +200,12 @@ std::vector<VertexCurvature> curvature(const Surface& surface, const Options& op
     options.check();
     std::vector<VertexCurvature> result;
     if (surface.face_count() == 0) return std::vector<VertexCurvature>(surface.vertex_count());
-    const CurvatureField field(surface, scales ? scales->h : whole_mean_edge_length(surface), options);
-    for (int v = 0; v < surface.vertex_count(); ++v) result.push_back(field.at(v));
+    const CurvatureField field(surface, scales ? scales->h : whole_mean_edge_length(surface), options,
+                               thread_count(options.threads));
+    std::vector<int> all(surface.vertex_count());
+    std::iota(all.begin(), all.end(), 0);
+    field.prepare(all);
+    for (const int v : all) result.push_back(field.at(v));
     return result;
 }
 

@@ -4,20 +4,29 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <exception>
+#include <mutex>
 #include <thread>
 #include <vector>
 
 namespace mrc {
 
+/// 0: as many as the machine has.
+inline int thread_count(int threads) {
+    return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
 /// Calls task(i) for every i from 0 up to count, on `threads` threads; 0: as many as the machine has. All tasks are done when it
 /// returns; of what they throw, the exception of the lowest i is thrown here. While the calling thread waits, it calls idle() often.
 template <class Task, class Idle>
 void parallel_for(int count, int threads, Task&& task, Idle&& idle) {
-    const int wanted = threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency());
-    const int workers = std::min(std::max(wanted, 1), count);
+    const int workers = std::min(thread_count(threads), count);
     std::vector<std::exception_ptr> thrown(count);
-    std::atomic<int> next = 0, done = 0;
+    std::atomic<int> next = 0;
+    std::mutex mutex;
+    std::condition_variable all_done;
+    int done = 0;
     const auto work = [&] {
         for (int i = next++; i < count; i = next++) {
             try {
@@ -25,16 +34,19 @@ void parallel_for(int count, int threads, Task&& task, Idle&& idle) {
             } catch (...) {
                 thrown[i] = std::current_exception();
             }
-            ++done;
+            const std::lock_guard lock(mutex);
+            if (++done == count) all_done.notify_one();
         }
     };
     {
         std::vector<std::jthread> others;
         for (int w = 1; w < workers; ++w) others.emplace_back(work);
         work();
-        while (done < count) {
+        std::unique_lock lock(mutex);
+        while (!all_done.wait_for(lock, std::chrono::milliseconds(2), [&] { return done == count; })) {
+            lock.unlock();
             idle();
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            lock.lock();
         }
     }
     for (const std::exception_ptr& exception : thrown) {

@@ -62,8 +62,10 @@ Scales contour_scales(const Surface& surface, const CurvatureField& field, doubl
                       const Options& options) {
     double weighted = 0.0, area = 0.0;
     std::vector<double> features;
-    for (const int v : vertices_within(surface, contour_ends(contour), rings)) {
-        const VertexCurvature& c = field.at(v);
+    const std::vector<int> near = vertices_within(surface, contour_ends(contour), rings);
+    field.prepare(near);
+    for (const int v : near) {
+        const VertexCurvature c = field.at(v);
         const double share = vertex_area(surface, v);
         const double kappa = options.feature == Feature::ridge ? -c.kappa_max : c.kappa_min;
         weighted += share * std::abs(kappa);

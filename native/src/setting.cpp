@@ -23,9 +23,10 @@ void check_scales(const Surface& surface, const Scales& scales) {
 }
 
 Setting::Setting(const Surface& surface, const Contour& contour, const Options& options, const std::vector<Attractor>& attractors,
-                 const Scales* given)
-    : field(surface, given ? given->h : mean_edge_length(surface, contour), options),
-      scales(given ? *given : contour_scales(surface, field, mean_edge_length(surface, contour), contour, options)),
+                 const Scales* given, int threads)
+    : h(given ? given->h : mean_edge_length(surface, contour)),
+      field(surface, h, options, threads),
+      scales(given ? *given : contour_scales(surface, field, h, contour, options)),
       energy(surface, field, scales, options, attractors) {
     check_scales(surface, scales);
 }

@@ -16,10 +16,11 @@ void check_scales(const Surface& surface, const Scales& scales);
 /// Scales, curvature and energy, made once for a contour.
 struct Setting {
     Setting(const Surface& surface, const Contour& contour, const Options& options, const std::vector<Attractor>& attractors,
-            const Scales* given);
+            const Scales* given, int threads = 1);
     Setting(const Setting&) = delete;
     Setting& operator=(const Setting&) = delete;
 
+    double h;  ///< the mean edge length
     CurvatureField field;
     Scales scales;
     Energy energy;

@@ -5,6 +5,7 @@
 #include <mrc/surface.h>
 
 #include <memory>
+#include <span>
 
 namespace mrc {
 
@@ -24,12 +25,14 @@ struct VertexCurvature {
 /// along the surface. Hidden faces count. The surface must outlive the field.
 class CurvatureField {
   public:
-    /// `h`: the mean edge length, above 0.
-    CurvatureField(const Surface& surface, double h, const Options& options);
+    /// `h`: the mean edge length, above 0. `threads`: on how many it may work; no result depends on it.
+    CurvatureField(const Surface& surface, double h, const Options& options, int threads = 1);
     ~CurvatureField();
     CurvatureField(CurvatureField&&) noexcept;
 
-    const VertexCurvature& at(int vertex) const;
+    /// Evaluates it at many vertices at once, which is faster than one by one.
+    void prepare(std::span<const int> vertices, const Beat& beat = {}) const;
+    VertexCurvature at(int vertex) const;
 
     /// The signed dihedral angle of a half-edge's edge in radians: positive convex, negative concave, 0 on borders. Faces folded
     /// flat onto each other count as concave, since rounding alone would decide.

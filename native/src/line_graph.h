@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "requirements.h"
+
+#include <mrc/graph.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace mrc {
+
+enum class Climb : std::uint8_t { rising = 1, falling = 2, along = 3 };  // level chords by rank, and those that the flow runs along
+
+inline int sign(Climb climb) { return climb == Climb::rising ? 1 : climb == Climb::falling ? -1 : 0; }
+
+/// What the arcs need to know of a chord besides its ends.
+struct ChordSite {
+    int halfedge;    ///< of the surface, that the chord lies on, or -1
+    int triangle;    ///< of the patch, that it lies inside, or -1
+    int given = -1;  ///< its place in the given contour, where that runs along it
+    Climb climb = Climb::along;
+};
+
+/// The chords of a graph in topological order with all that decides which of them join.
+struct Chords {
+    const std::vector<GraphPoint>& points;
+    const std::vector<Chord>& chords;
+    const std::vector<ChordSite>& sites;
+    int crossing;     ///< the last so many cross the level
+    int given_count;  ///< points of the given contour
+    const Requirements& requirements;
+};
+
+/// The line graph of 3.1: chords are its nodes, and an arc joins each to those that start where it ends, weighed by eq. 3.1 and 3.2.
+/// Chords that cross the level come twice, first as sources and last as destinations.
+WeightedGraph make_line_graph(const Surface& surface, const Chords& chords, const Energy& energy, const EdgeForm* region,
+                              const Beat& beat);
+
+}  // namespace mrc
