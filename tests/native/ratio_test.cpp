@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "brute_force.h"
 #include "karp_search.h"
+#include "random_graphs.h"
 #include "thesis_search.h"
 
 #include <mrc/ratio.h>
@@ -9,65 +11,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <random>
 #include <stdexcept>
 
 namespace {
 
 using mrc::WeightedGraph;
-
-/// A random acyclic graph of layers, as a band has them: sources, layers of nodes, destinations.
-WeightedGraph random_graph(unsigned seed, bool matched, int width = 5, int layers = 5) {
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<double> weight(-1.0, 1.0), length(0.1, 2.0), chance(0.0, 1.0);
-    WeightedGraph graph;
-    graph.matched = matched;
-    const int ends = 1 + static_cast<int>(random() % static_cast<unsigned>(width));
-    std::vector<int> last;
-    const auto add_node = [&](const std::vector<int>& before) {
-        const int node = static_cast<int>(graph.first_arc.size());
-        graph.first_arc.push_back(static_cast<int>(graph.from.size()));
-        for (const int p : before) {
-            if (chance(random) > 0.6) continue;
-            graph.from.push_back(p);
-            graph.f.push_back(weight(random));
-            graph.g.push_back(length(random));
-        }
-        return node;
-    };
-    for (int i = 0; i < ends; ++i) last.push_back(add_node({}));
-    for (const int s : last) graph.sources.push_back({s, matched ? 0.0 : weight(random), matched ? 0.0 : length(random)});
-    std::vector<int> all = last;
-    for (int layer = 0; layer < layers; ++layer) {
-        std::vector<int> next;
-        for (int i = 0; i < width; ++i) next.push_back(add_node(layer % 2 ? all : last));
-        all.insert(all.end(), next.begin(), next.end());
-        last = next;
-    }
-    for (int i = 0; i < ends; ++i) {
-        graph.destinations.push_back({add_node(last), matched ? 0.0 : weight(random), matched ? 0.0 : length(random)});
-    }
-    graph.first_arc.push_back(static_cast<int>(graph.from.size()));
-    return graph;
-}
-
-/// The least objective by walking every path backwards from its destination.
-double brute_force(const WeightedGraph& graph, const mrc::Objective& objective = {}) {
-    double best = std::numeric_limits<double>::infinity();
-    for (std::size_t j = 0; j < graph.destinations.size(); ++j) {
-        const std::function<void(int, double, double)> walk = [&](int node, double f, double g) {
-            for (std::size_t i = 0; i < graph.sources.size(); ++i) {
-                if (graph.sources[i].node != node || (graph.matched && i != j)) continue;
-                best = std::min(best, objective.value(f + graph.sources[i].f, g + graph.sources[i].g));
-            }
-            for (int a = graph.first_arc[node]; a < graph.first_arc[node + 1]; ++a)
-                walk(graph.from[a], f + graph.f[a], g + graph.g[a]);
-        };
-        walk(graph.destinations[j].node, graph.destinations[j].f, graph.destinations[j].g);
-    }
-    return best;
-}
+using mrc_test::brute_force;
+using mrc_test::layered_graph;
 
 /// The ratio of a path, summed from the graph itself.
 double ratio_of(const WeightedGraph& graph, const std::vector<int>& nodes) {
@@ -96,8 +47,8 @@ class RandomGraphs : public testing::TestWithParam<bool> {};
 TEST_P(RandomGraphs, optimum_is_that_of_brute_force_and_of_the_thesis) {
     int found = 0;
     for (unsigned seed = 0; seed < 500; ++seed) {
-        const WeightedGraph graph = random_graph(seed, GetParam());
-        const double expected = brute_force(graph);
+        const WeightedGraph graph = layered_graph(seed, GetParam());
+        const double expected = brute_force(graph).objective;
         const mrc::RatioResult result = mrc::minimum_ratio(graph);
         const mrc_test::LinearSearch thesis = mrc_test::thesis_search(graph);
         ASSERT_EQ(result.found, std::isfinite(expected)) << "seed " << seed;
@@ -114,17 +65,17 @@ TEST_P(RandomGraphs, optimum_is_that_of_brute_force_and_of_the_thesis) {
 
 TEST_P(RandomGraphs, certificate_bounds_every_path_and_meets_the_best) {
     for (unsigned seed = 1000; seed < 1200; ++seed) {
-        const WeightedGraph graph = random_graph(seed, GetParam());
+        const WeightedGraph graph = layered_graph(seed, GetParam());
         const mrc::RatioResult result = mrc::minimum_ratio(graph);
         if (!result.found) continue;
-        EXPECT_LE(result.lower_bound, brute_force(graph) + 1e-12);
+        EXPECT_LE(result.lower_bound, brute_force(graph).objective + 1e-12);
         EXPECT_NEAR(result.lower_bound, result.objective, 1e-12);
     }
 }
 
 TEST_P(RandomGraphs, where_the_search_begins_changes_nothing_but_the_work) {
     for (unsigned seed = 2000; seed < 2100; ++seed) {
-        const WeightedGraph graph = random_graph(seed, GetParam());
+        const WeightedGraph graph = layered_graph(seed, GetParam());
         const mrc::RatioResult cold = mrc::minimum_ratio(graph);
         if (!cold.found) continue;
         for (const double guess : {-3.0, 0.0, cold.objective, 5.0}) {
@@ -138,10 +89,10 @@ TEST_P(RandomGraphs, where_the_search_begins_changes_nothing_but_the_work) {
 TEST_P(RandomGraphs, optimum_with_length_bias_is_that_of_brute_force) {
     int above_hull = 0;
     for (unsigned seed = 4000; seed < 4500; ++seed) {
-        const WeightedGraph graph = random_graph(seed, GetParam());
+        const WeightedGraph graph = layered_graph(seed, GetParam());
         const double lengths = 0.02 * (1.0 + seed % 7);
         const mrc::Objective objective{0.5 + seed % 3, lengths, seed % 2 ? 4.0 : 0.0};
-        const double expected = brute_force(graph, objective);
+        const double expected = brute_force(graph, objective).objective;
         const mrc::RatioResult result = mrc::minimum_ratio(graph, {.objective = objective, .guess = {}});
         ASSERT_EQ(result.found, std::isfinite(expected));
         if (!result.found) continue;
@@ -155,10 +106,10 @@ TEST_P(RandomGraphs, optimum_with_length_bias_is_that_of_brute_force) {
 
 TEST_P(RandomGraphs, optimum_by_counts_is_that_of_brute_force) {
     for (unsigned seed = 6000; seed < 6300; ++seed) {
-        WeightedGraph graph = random_graph(seed, GetParam());
+        WeightedGraph graph = layered_graph(seed, GetParam());
         std::ranges::fill(graph.g, 1.0);
         const mrc::Objective objective{0.5 + seed % 3, 0.02 * (1.0 + seed % 7), seed % 2 ? 3.0 : 0.0};
-        const double expected = brute_force(graph, objective);
+        const double expected = brute_force(graph, objective).objective;
         // So few labels that a search without Karp's recurrence would give up.
         const mrc::RatioResult result = mrc::minimum_ratio(graph, {.objective = objective, .guess = {}, .most_labels = 1});
         ASSERT_EQ(result.found, std::isfinite(expected));
@@ -171,7 +122,7 @@ TEST_P(RandomGraphs, optimum_by_counts_is_that_of_brute_force) {
 
 TEST_P(RandomGraphs, optimum_by_counts_is_that_of_karps_programme_on_larger_graphs) {
     for (unsigned seed = 7000; seed < 7060; ++seed) {
-        WeightedGraph graph = random_graph(seed, GetParam(), 10, 25);
+        WeightedGraph graph = layered_graph(seed, GetParam(), 10, 25);
         std::ranges::fill(graph.g, 1.0);
         const mrc::Objective objective{0.5 + seed % 3, 0.004 * (1.0 + seed % 7), seed % 2 ? 9.0 : 0.0};
         const double expected = mrc_test::karp_search(graph, objective);
@@ -185,11 +136,11 @@ TEST_P(RandomGraphs, optimum_by_counts_is_that_of_karps_programme_on_larger_grap
 TEST_P(RandomGraphs, a_search_that_gives_up_still_bounds_the_optimum) {
     int gaps = 0;
     for (unsigned seed = 5000; seed < 5200; ++seed) {
-        const WeightedGraph graph = random_graph(seed, GetParam());
+        const WeightedGraph graph = layered_graph(seed, GetParam());
         const mrc::Objective objective{1.0, 0.1, 0.0};
         const mrc::RatioResult result = mrc::minimum_ratio(graph, {.objective = objective, .guess = {}, .most_labels = 2});
         if (!result.found) continue;
-        EXPECT_LE(result.lower_bound, brute_force(graph, objective) + 1e-12);
+        EXPECT_LE(result.lower_bound, brute_force(graph, objective).objective + 1e-12);
         gaps += result.lower_bound < result.objective - 1e-9;
     }
     EXPECT_GT(gaps, 0);
@@ -197,7 +148,7 @@ TEST_P(RandomGraphs, a_search_that_gives_up_still_bounds_the_optimum) {
 
 TEST_P(RandomGraphs, adding_a_multiple_of_g_to_f_moves_the_ratio_and_nothing_else) {
     for (unsigned seed = 3000; seed < 3100; ++seed) {
-        WeightedGraph graph = random_graph(seed, GetParam());
+        WeightedGraph graph = layered_graph(seed, GetParam());
         const mrc::RatioResult before = mrc::minimum_ratio(graph);
         if (!before.found) continue;
         for (int a = 0; a < graph.arc_count(); ++a) graph.f[a] += 3.0 * graph.g[a];
@@ -215,7 +166,7 @@ INSTANTIATE_TEST_SUITE_P(Pairs, RandomGraphs, testing::Bool(), [](const auto& pa
 TEST(Ratio, bounds_save_passes_over_one_search_a_source) {
     int ours = 0, thesis = 0;
     for (unsigned seed = 0; seed < 30; ++seed) {
-        const WeightedGraph graph = random_graph(seed, true, 20, 12);
+        const WeightedGraph graph = layered_graph(seed, true, 20, 12);
         ours += mrc::minimum_ratio(graph).passes;
         thesis += mrc_test::thesis_search(graph).passes;
     }

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <mrc/surface.h>
+
+namespace mrc_test {
+
+inline constexpr int waists = 4;
+
+/// A torus of quads whose tube has waists, for contours round the tube to find.
+mrc::Surface waisted_torus();
+
+/// A jagged loop round the tube, two columns off a waist.
+mrc::Contour loop_near(int waist);
+
+}  // namespace mrc_test
