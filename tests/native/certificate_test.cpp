@@ -85,6 +85,7 @@ TEST(CertificateOfABand, stands_and_falls_with_the_best_source) {
         options.refinement = refinement;
         const WeightedGraph whole = mrc::search_space(surface, mrc_test::loop_near(0), options).graph.search;
         const RatioResult result = mrc::minimum_ratio(whole);
+        ASSERT_TRUE(result.found);
         EXPECT_EQ(objection(whole, result), "");
         const auto best = std::ranges::find(whole.sources, result.nodes.front(), &mrc::Terminal::node);
         const WeightedGraph rest = without_source(whole, static_cast<int>(best - whole.sources.begin()));

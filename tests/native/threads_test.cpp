@@ -111,6 +111,17 @@ std::string all(const Surface& surface, int threads, double stop_at) {
     return (Bytes() << results << listener.verdict()).text;
 }
 
+/// Cancels in the middle of a search, where progress is asked for again at the same share, or at the end at the latest.
+std::string all_with_a_cancel_under_way(const Surface& surface, int threads) {
+    double last = 0.0;
+    const auto progress = [&last](double share) {
+        const bool again = share > 0.3 && share == last;
+        last = share;
+        return !again && share < 1.0;
+    };
+    return (Bytes() << optimize_all(surface, all_tasks(), options(2, threads), progress)).text;
+}
+
 std::string all_with_a_throw(const Surface& surface, int threads) {
     const auto progress = [](double share) -> bool { return share < 0.3 ? true : throw std::runtime_error("enough"); };
     try {
@@ -146,6 +157,7 @@ std::vector<Job> jobs() {
         [](const Surface& surface, int) { return one(surface, 2, 0.3); },
         [](const Surface& surface, int threads) { return all(surface, threads, 2.0); },
         [](const Surface& surface, int threads) { return all(surface, threads, 0.3); },
+        all_with_a_cancel_under_way,
         all_with_a_throw,
         all_with_bad_input,
         [](const Surface& surface, int) { return space(surface); },
