@@ -162,6 +162,7 @@ WeightedGraph layered_graph(unsigned seed, bool matched, int width, int layers) 
     graph.matched = matched;
     const int ends = 1 + static_cast<int>(random() % static_cast<unsigned>(width));
     std::vector<int> last;
+    last.reserve(ends);
     const auto add_node = [&](const std::vector<int>& before) {
         const int node = static_cast<int>(graph.first_arc.size());
         graph.first_arc.push_back(static_cast<int>(graph.from.size()));
@@ -178,6 +179,7 @@ WeightedGraph layered_graph(unsigned seed, bool matched, int width, int layers) 
     std::vector<int> all = last;
     for (int layer = 0; layer < layers; ++layer) {
         std::vector<int> next;
+        next.reserve(width);
         for (int i = 0; i < width; ++i) next.push_back(add_node(layer % 2 ? all : last));
         all.insert(all.end(), next.begin(), next.end());
         last = next;

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <latch>
 #include <stdexcept>
@@ -92,8 +93,8 @@ Options options(int refinement, int threads) {
 }
 
 std::vector<Task> all_tasks() {
-    std::vector<Task> tasks;
-    for (int waist = 0; waist < waists; ++waist) tasks.push_back({loop_near(waist), {}, {}});
+    std::vector<Task> tasks(waists);
+    for (int waist = 0; waist < waists; ++waist) tasks[waist].contour = loop_near(waist);
     return tasks;
 }
 
@@ -168,14 +169,15 @@ std::vector<Job> jobs() {
 
 TEST(Threads, calls_at_once_on_one_surface_give_the_bytes_of_calls_in_turn) {
     const std::vector<Job> all_jobs = jobs();
-    std::vector<std::string> expected;
-    for (const Job& job : all_jobs) expected.push_back(job(waisted_torus(), 1));
+    std::vector<std::string> expected(all_jobs.size());
+    std::ranges::transform(all_jobs, expected.begin(), [](const Job& job) { return job(waisted_torus(), 1); });
     const Surface surface = waisted_torus();
     const int copies = 2, count = copies * static_cast<int>(all_jobs.size());
     std::vector<std::string> found(count);
     {
         std::latch start(count);
         std::vector<std::jthread> threads;
+        threads.reserve(count);
         for (int i = 0; i < count; ++i) {
             threads.emplace_back([&, i] {
                 start.arrive_and_wait();
