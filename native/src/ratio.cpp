@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace mrc {
 
@@ -46,6 +47,7 @@ class Search {
     Search(const WeightedGraph& graph, const RatioOptions& options)
         : graph_(graph), objective_(options.objective), most_labels_(options.most_labels), beat_(options.beat) {
         start_.assign(graph.node_count(), -1);
+        same_node_.assign(graph.sources.size(), -1);
         counted_ = std::ranges::all_of(graph.g, [](double g) { return g == 1.0; });
         const Terminal guess = options.guess.value_or(Terminal{-1, 0.0, 1.0});
         lambda_ = objective_.slope(objective_.value(guess.f, guess.g), guess.g);
@@ -83,7 +85,8 @@ class Search {
     const Objective objective_;
     const int most_labels_;
     const Beat& beat_;
-    std::vector<int> start_;
+    std::vector<int> start_;      // of each node, a source there of the set at work
+    std::vector<int> same_node_;  // of each source of that set, another one on its node: above the hull each counts
     Pass pass_;
     double lambda_;
     bool counted_;                  // every arc has length 1, so that L is a count (appendix A)
@@ -222,7 +225,7 @@ class Search {
                 passes.push_back(std::move(pass));
             }
         }
-        for (const int i : set) start_[graph_.sources[i].node] = i;
+        for (const int i : set) same_node_[i] = std::exchange(start_[graph_.sources[i].node], i);
         for (const int end : ends_of(set)) counted_ ? search_counts(passes, end) : search_labels(passes, end);
         for (const int i : set) start_[graph_.sources[i].node] = -1;
     }
@@ -312,6 +315,8 @@ class Search {
     /// The lens between h and the lines, which is convex, is open where it is at the peak above a line or where two lines meet.
     bool lens_is_open() const {
         if (!result_.found) return true;
+        // At the origin, which no path reaches, h is 0; the best may have improved so far since the passes that no peak is beyond it.
+        if (std::ranges::all_of(lines_, [](const Line& line) { return line.height < 0.0; })) return true;
         const auto open_at = [&](double L) {
             const double h = objective_.scale * L * (result_.objective - objective_.bias * std::max(L, objective_.floor));
             return L > 0.0 && std::ranges::all_of(lines_, [&](const Line& line) { return line.slope * L + line.height < h; });
@@ -327,10 +332,10 @@ class Search {
 
     void finish_label(const std::vector<Label>& labels, int index) {
         const Label& label = labels[index];
-        const Terminal& source = graph_.sources[start_[label.node]];
         std::vector<int> nodes;
         for (int i = index; i >= 0; i = labels[i].before) nodes.push_back(labels[i].node);
-        offer(std::move(nodes), label.f + source.f, label.g + source.g);
+        for (int i = start_[label.node]; i >= 0; i = same_node_[i])
+            offer(nodes, label.f + graph_.sources[i].f, label.g + graph_.sources[i].g);
     }
 
     /// The pair stays open: its bound is the best that a path on the passes' lines, no shorter than the shortest, could reach.
@@ -347,7 +352,7 @@ class Search {
     double shortest_length(int destination) const {
         std::vector<double> length(graph_.node_count(), infinity);
         for (int n = 0; n < graph_.node_count(); ++n) {
-            if (start_[n] >= 0) length[n] = graph_.sources[start_[n]].g;
+            for (int i = start_[n]; i >= 0; i = same_node_[i]) length[n] = std::min(length[n], graph_.sources[i].g);
             for (int a = graph_.first_arc[n]; a < graph_.first_arc[n + 1]; ++a)
                 length[n] = std::min(length[n], length[graph_.from[a]] + graph_.g[a]);
         }

@@ -218,6 +218,37 @@ TEST(Ratio, a_pair_of_many_bad_paths_does_not_use_up_the_labels_of_the_others) {
     EXPECT_DOUBLE_EQ(result.lower_bound, result.objective);
 }
 
+/// A single pair with paths (L, F): (0.1, -0.3) and (6.02, -50) on the lower hull, (0.3, -1.2) and (0.22, -1) above it. The search
+/// meets (0.3, -1.2) first, so that none of its passes has a slope as steep as the objective is then low.
+TEST(Ratio, a_short_path_above_the_hull_is_found_after_a_great_improvement) {
+    WeightedGraph graph;
+    graph.first_arc = {0, 0, 2, 5};
+    graph.from = {0, 0, 0, 1, 0};
+    graph.f = {-1.0, -50.0, -0.3, 0.0, -1.2};
+    graph.g = {0.2, 6.0, 0.1, 0.02, 0.3};
+    graph.sources = {{0}};
+    graph.destinations = {{2}};
+    const mrc::RatioResult result = mrc::minimum_ratio(graph, {.objective = {1.0, 1.0}, .guess = {}});
+    EXPECT_DOUBLE_EQ(result.objective, -1.0 / 0.22 + 0.22);
+    EXPECT_DOUBLE_EQ(result.lower_bound, result.objective);
+}
+
+/// The best of three sources on one node lies above the line through the other two.
+TEST(Ratio, each_source_on_a_node_counts_above_the_hull) {
+    WeightedGraph graph;
+    graph.matched = false;
+    graph.first_arc = {0, 0, 1};
+    graph.from = {0};
+    graph.f = {0.0};
+    graph.g = {0.5};
+    graph.sources = {{0, -2.9, 1.5}, {0, 0.0, 0.5}, {0, -6.0, 2.5}};
+    graph.destinations = {{1}};
+    for (int turn = 0; turn < 3; ++turn) {
+        std::ranges::rotate(graph.sources, graph.sources.begin() + 1);
+        EXPECT_DOUBLE_EQ(mrc::minimum_ratio(graph, {.objective = {1.0, 1.0}, .guess = {}}).objective, -2.9 / 2.0 + 2.0);
+    }
+}
+
 TEST(Ratio, what_a_beat_throws_ends_the_search) {
     mrc::RatioOptions options;
     options.objective = {1.0, 1.0};
