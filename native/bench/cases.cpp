@@ -16,15 +16,15 @@ void add_quad(std::vector<int>& triangles, int a, int b, int c, int d) { triangl
 
 void add_point(std::vector<double>& positions, double x, double y, double z) { positions.insert(positions.end(), {x, y, z}); }
 
-/// `columns` vertices round each of `rows` rings of edges of unit length, with waves and some noise.
-void add_tube(Arrays& arrays, int rows, int columns) {
-    std::mt19937 random(2006);
+/// `columns` vertices round each of `rows` rings of edges of unit length, with waves and some noise; each variant has its own.
+void add_tube(Arrays& arrays, int rows, int columns, int variant = 0) {
+    std::mt19937 random(2006 + variant);
     std::uniform_real_distribution<double> noise(-0.15, 0.15);
     const double radius = columns / (2.0 * pi);
     for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns; ++column) {
             const double angle = 2.0 * pi * (column + noise(random)) / columns, height = row + noise(random);
-            const double wave = 1.0 + 0.1 * std::sin(0.35 * row + 0.6 * std::sin(2.0 * angle)) + 0.02 * noise(random);
+            const double wave = 1.0 + 0.1 * std::sin(0.35 * row + variant + 0.6 * std::sin(2.0 * angle)) + 0.02 * noise(random);
             add_point(arrays.positions, wave * radius * std::cos(angle), wave * radius * std::sin(angle), height);
         }
     }
@@ -83,10 +83,10 @@ mrc::Contour jagged_ring(int lower, int columns) {
 
 }  // namespace
 
-Case tube_case(int band_faces, int refinement, int more_faces) {
+Case tube_case(int band_faces, int refinement, int more_faces, int variant) {
     const Shape shape = shape_of(band_faces);
     Arrays arrays;
-    add_tube(arrays, shape.rows, shape.columns);
+    add_tube(arrays, shape.rows, shape.columns, variant);
     if (more_faces > 0) add_torus(arrays, more_faces, 10.0 * more_faces);
     return {mrc::Surface(arrays.view()), jagged_ring(shape.rows / 2, shape.columns), options_for(shape, refinement)};
 }

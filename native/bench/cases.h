@@ -15,8 +15,8 @@ struct Case {
 };
 
 /// A wavy tube of triangles with a jagged ring half way up, whose band has about so many faces. `more_faces`: of another body that is
-/// part of the mesh and far away.
-Case tube_case(int band_faces, int refinement, int more_faces = 0);
+/// part of the mesh and far away. `variant`: another tube of the same size.
+Case tube_case(int band_faces, int refinement, int more_faces = 0, int variant = 0);
 
 /// A tube with room for so many contours, each with a band of about so many faces out of reach of the others'.
 struct Row {

@@ -50,6 +50,15 @@ void ratio(State& state) {
     report(state, graph, result.passes);
 }
 
+/// A whole call at 20,000 faces and k = 2 for each variant of the tube: only its passes count.
+void passes(State& state) {
+    const mrc_bench::Case c = mrc_bench::tube_case(20'000, 2, 0, static_cast<int>(state.range(0)));
+    mrc::Result result;
+    for (auto _ : state) benchmark::DoNotOptimize(result = mrc::optimize(c.surface, c.contour, c.options));
+    state.counters["passes"] = result.statistics.passes;
+    state.counters["faces"] = result.statistics.faces;
+}
+
 void shared_lambda(State& state) {
     const mrc::WeightedGraph& graph = graph_of(state);
     mrc_test::LinearSearch result;
@@ -91,16 +100,17 @@ void bands(benchmark::internal::Benchmark* b, const std::vector<long>& faces, co
     b->ArgNames({"faces", "k"})->Unit(benchmark::kMicrosecond);
 }
 void all_bands(benchmark::internal::Benchmark* b) {
-    bands(b, {250, 1000, 5000, 20000}, {0, 1, 2});
-    b->Args({1000, 4})->Args({5000, 4});
+    bands(b, {250, 500, 1000, 2500, 5000, 10000, 20000}, {0, 1, 2});
+    bands(b, {250, 1000, 5000}, {4});
 }
 void smaller_bands(benchmark::internal::Benchmark* b) { bands(b, {250, 1000, 5000}, {0, 1, 2}); }
-void smallest_bands(benchmark::internal::Benchmark* b) { bands(b, {250, 500, 1000}, {0}); }
+void smallest_bands(benchmark::internal::Benchmark* b) { bands(b, {250, 500, 1000}, {0}); }  // up to 2,000 nodes
 
 }  // namespace
 
 BENCHMARK(bare_pass)->Apply(all_bands);
 BENCHMARK(ratio)->Apply(all_bands);
+BENCHMARK(passes)->ArgName("variant")->DenseRange(0, 9)->Iterations(1)->Repetitions(1)->Unit(benchmark::kMillisecond);
 BENCHMARK(shared_lambda)->Apply(smaller_bands);
 BENCHMARK(thesis)->Apply(smaller_bands);
 BENCHMARK(karp)->Apply(smallest_bands);
