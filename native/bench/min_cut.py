@@ -25,9 +25,12 @@ def cut_band(body, vertices, options):
     side, entered = np.zeros((2, len(body.positions)), int)
     side[space["vertices"]], entered[space["vertices"]] = space["side"], space["round"]
     triangles = body.triangles[space["faces"]]
-    outermost = entered[triangles].max(axis=1) == space["round"].max()
-    left = np.flatnonzero(outermost & (side[triangles].max(axis=1) == 1))
-    right = np.flatnonzero(outermost & (side[triangles].min(axis=1) == -1))
+    last, left, right = (
+        entered[triangles].max(axis=1),
+        side[triangles].max(axis=1) == 1,
+        side[triangles].min(axis=1) == -1,
+    )
+    left, right = (np.flatnonzero(on & (last == last[on].max(initial=0))) for on in (left, right))
     return CutBand(triangles, left, right) if len(left) and len(right) else None
 
 

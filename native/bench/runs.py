@@ -37,6 +37,8 @@ class Runs:
         self._runs = defaultdict(list)
         for name, rows in repetitions.items():
             self._runs[name.split("/")[0]].append(run_of(name, rows))
+        for runs in self._runs.values():  # interleaved, they were written in any order
+            runs.sort(key=lambda run: tuple(reversed(run.arguments.values())))
 
     def of(self, function, **arguments):
         """The runs of a benchmark with these arguments."""

@@ -185,7 +185,7 @@ def stage_rows(runs):
     for run in runs.of("optimize"):
         times = [number(run[stage] / 1e3) for stage in STAGES]
         counts = [f"{run.counters[name]:,.0f}" for name in ("arcs", "passes")]
-        yield [f"{run.counters['faces']:,.0f}", run["k"], *counts, *times, ms(run.seconds)]
+        yield [f"{run.counters['faces']:,.0f}", run["k"], *counts, *times, ms(run.real_seconds)]
 
 
 def real_stage_rows(real):
