@@ -96,6 +96,7 @@ Row contours_in_a_row(int count, int band_faces, int refinement) {
     Arrays arrays;
     add_tube(arrays, count * shape.rows, shape.columns);
     std::vector<mrc::Contour> contours;
+    contours.reserve(count);
     for (int i = 0; i < count; ++i) contours.push_back(jagged_ring(i * shape.rows + shape.rows / 2, shape.columns));
     return {mrc::Surface(arrays.view()), contours, options_for(shape, refinement)};
 }

@@ -65,12 +65,13 @@ void optimize_beside(State& state) {
 void surface(State& state) {
     const mrc_bench::Arrays arrays = mrc_bench::torus_arrays(static_cast<int>(state.range(0)));
     for (auto _ : state) benchmark::DoNotOptimize(mrc::Surface(arrays.view()).edge_count());
-    state.counters["triangles"] = static_cast<double>(arrays.triangles.size() / 3);
+    state.counters["triangles"] = static_cast<double>(arrays.triangles.size()) / 3.0;
 }
 
 std::vector<mrc::Result> all_results(mrc_bench::Row& row, int threads) {
     row.options.threads = threads;
     std::vector<mrc::Task> tasks;
+    tasks.reserve(row.contours.size());
     for (const mrc::Contour& contour : row.contours) tasks.push_back({contour, {}, {}});
     return mrc::optimize_all(row.surface, tasks, row.options);
 }
