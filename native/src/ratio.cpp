@@ -33,6 +33,7 @@ double Objective::least_on_line(double lambda, double height, double shortest) c
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr int most_laps = 4;  // without a better path: where a few more potentials do not help, halving the set does
 
 /// One relaxation: the least f - lambda g from a set of sources to every node.
 struct Pass {
@@ -48,6 +49,7 @@ class Search {
         : graph_(graph), objective_(options.objective), most_labels_(options.most_labels), beat_(options.beat) {
         start_.assign(graph.node_count(), -1);
         same_node_.assign(graph.sources.size(), -1);
+        potential_.assign(graph.sources.size(), 0.0);
         counted_ = std::ranges::all_of(graph.g, [](double g) { return g == 1.0; });
         const Terminal guess = options.guess.value_or(Terminal{-1, 0.0, 1.0});
         lambda_ = objective_.slope(objective_.value(guess.f, guess.g), guess.g);
@@ -85,8 +87,9 @@ class Search {
     const Objective objective_;
     const int most_labels_;
     const Beat& beat_;
-    std::vector<int> start_;      // of each node, a source there of the set at work
-    std::vector<int> same_node_;  // of each source of that set, another one on its node: above the hull each counts
+    std::vector<int> start_;         // of each node, a source there of the set at work
+    std::vector<int> same_node_;     // of each source of that set, another one on its node: above the hull each counts
+    std::vector<double> potential_;  // of each pair
     Pass pass_;
     double lambda_;
     bool counted_;                  // every arc has length 1, so that L is a count (appendix A)
@@ -96,20 +99,42 @@ class Search {
     /// What a pair's F - lambda L must be below to matter.
     double threshold(double lambda) const { return result_.found ? objective_.threshold(result_.objective, lambda) : infinity; }
 
-    /// Improves the best as long as the set shows a better path of one of its own pairs; gives the pairs still undecided.
+    /// Improves the best as long as the set shows a better path of one of its own pairs, and potentials as long as that may rule out
+    /// pairs; gives the pairs still undecided.
     std::vector<int> descend(std::vector<int> set) {
-        for (;;) {
+        if (set.size() == 1) potential_[set[0]] = 0.0;
+        for (int laps = 0;;) {
             relax(set);
             std::vector<int> undecided;
             const bool improved = collect(set, undecided);
-            if (undecided.empty() || !improved) return undecided;
+            laps = improved ? 0 : laps + 1;
+            if (undecided.empty() || (!improved && (laps == most_laps || !lower_potentials(undecided)))) return undecided;
             set = std::move(undecided);
         }
     }
 
+    /// What goes from one pair's source to another pair's destination bounds both, though neither may go there. A potential, added
+    /// at a pair's source and taken off at its destination, leaves the pair's own paths as they are and moves those between pairs.
+    /// Potentials under which no path at all undercuts the threshold are shortest distances where each lap costs the threshold less,
+    /// by Bellman and Ford: a source starts where the last lap left its destination. They exist where no closed walk of several laps
+    /// is too cheap; such a walk crosses itself, and laps that exchange their ends where they cross are contours of their own.
+    bool lower_potentials(const std::vector<int>& set) {
+        if (!graph_.matched || set.size() == 1) return false;
+        const double least = threshold(pass_.lambda) < infinity ? threshold(pass_.lambda) : 0.0;
+        bool lowered = false;
+        for (const int i : set) {
+            const double change = bound_at(pass_, i) - least;
+            if (change >= 0.0) continue;
+            potential_[i] += change;
+            lowered = true;
+        }
+        return lowered;
+    }
+
     double bound_at(const Pass& pass, int destination) const {
         const Terminal& end = graph_.destinations[destination];
-        return pass.value[end.node] + (end.f - pass.lambda * end.g);
+        const double potential = graph_.matched ? potential_[destination] : 0.0;
+        return pass.value[end.node] + (end.f - pass.lambda * end.g) - potential;
     }
 
     /// Rounding may leave a bound below its threshold by a hair.
@@ -178,7 +203,7 @@ class Search {
         pass.value.resize(graph_.node_count());
         pass.last_arc.resize(graph_.node_count());
         pass.origin.resize(graph_.node_count());
-        const auto value = [&](int i) { return graph_.sources[i].f - lambda * graph_.sources[i].g; };
+        const auto value = [&](int i) { return graph_.sources[i].f - lambda * graph_.sources[i].g + potential_[i]; };
         for (const int i : set) {
             int& start = start_[graph_.sources[i].node];
             if (start < 0 || value(i) < value(start)) start = i;
