@@ -166,7 +166,7 @@ class CurvatureField::Impl {
           negligible_(1e-4 / h),
           threads_(threads),
           near_(surface) {
-        workers_.emplace_back(surface, radius_);
+        renew_workers();
     }
 
     VertexCurvature at(int vertex) {
@@ -189,6 +189,7 @@ class CurvatureField::Impl {
             place_[fresh[i]] = static_cast<int>(curvatures_.size());
             curvatures_.push_back(made[i]);
         }
+        if (fresh.size() > worth_a_thread) renew_workers();  // what they keep takes more room than it saves time from now on
     }
 
     double dihedral(int halfedge) { return workers_.front().disks.dihedral(halfedge); }
@@ -212,6 +213,11 @@ class CurvatureField::Impl {
     std::vector<int> place_;  // in curvatures_, or -1
     std::vector<Symmetric> tensors_;
     std::vector<char> has_tensor_;
+
+    void renew_workers() {
+        workers_.clear();
+        workers_.emplace_back(surface_, radius_);
+    }
 
     /// Calls work(worker, i) for every i below count, each worker in a run of its own.
     template <class Work>

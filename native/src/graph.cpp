@@ -95,6 +95,7 @@ class GraphBuilder {
         std::set<std::pair<int, int>> own_segments;
         for (const Contour& own : territory_.own) {
             std::vector<int> points;
+            points.reserve(own.points.size());
             for (const SurfacePoint& p : own.points) points.push_back(ambient_.point_at(patch_, p));
             for (std::size_t i = 0; i < points.size(); ++i) {
                 const int a = points[i], b = points[(i + 1) % points.size()];
@@ -304,8 +305,8 @@ class GraphBuilder {
             sites_.push_back({s.halfedge, s.triangle, -1, d.climb});
             graph_.crossing += d.crosses;
         }
-        directed_ = {};
-        ambient_.segments = {};
+        directed_ = std::vector<DirectedSegment>();  // the arcs are to come, which need the room
+        ambient_.segments = std::vector<Segment>();
     }
 
     /// The places of the chords that the given contour runs along.

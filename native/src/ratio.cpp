@@ -239,7 +239,7 @@ class Search {
     void search_above_hull(const std::vector<int>& set) {
         std::vector<Pass> passes{pass_};
         for (const double side : {-1.0, 1.0}) {
-            for (double step = 0.5; step < 8.0; step *= 2.0) {
+            for (const double step : {0.5, 1.0, 2.0, 4.0}) {
                 Pass pass;
                 relax(set, lambda_ + side * step * lens_slope(), pass);
                 std::swap(pass, pass_);
