@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <array>
+#include <atomic>
 #include <cmath>
 #include <deque>
 #include <iterator>
@@ -201,7 +201,7 @@ class CurvatureField::Impl {
         DiskTensors disks;
         NearSearch search;
     };
-    static constexpr std::size_t worth_a_thread = 150;  // vertices
+    static constexpr std::size_t worth_a_thread = 200;  // vertices
 
     const Surface& surface_;
     double radius_, sigma_, limit_, negligible_;
@@ -219,19 +219,28 @@ class CurvatureField::Impl {
         workers_.emplace_back(surface_, radius_);
     }
 
-    /// Calls work(worker, i) for every i below count, each worker in a run of its own.
+    /// How many threads so much work is worth; there are as many workers at least.
+    int hire(std::size_t count) {
+        const int wanted = std::min(threads_, static_cast<int>(count / worth_a_thread) + 1);
+        while (static_cast<int>(workers_.size()) < wanted) workers_.emplace_back(surface_, radius_);
+        return wanted;
+    }
+
+    /// Calls work(worker, i) for every i below count. A thread takes run after run, so that a late one keeps nobody waiting.
     template <class Work>
     void in_parallel(std::size_t count, const Beat& beat, Work&& work) {
-        const auto most = static_cast<int>(count / worth_a_thread) + 1;
-        const int workers = std::min(threads_, most);
-        while (static_cast<int>(workers_.size()) < workers) workers_.emplace_back(surface_, radius_);
-        const auto run = [&](int w) {
-            for (std::size_t i = count * w / workers; i < count * (w + 1) / workers; ++i) {
-                if (beat && i % 64 == 0) beat();
-                work(workers_[w], i);
+        const int workers = hire(count);
+        const std::size_t run = workers == 1 ? count : worth_a_thread / 2;
+        std::atomic<std::size_t> next = 0;
+        const auto take_runs = [&](int w) {
+            for (std::size_t begin = next.fetch_add(run); begin < count; begin = next.fetch_add(run)) {
+                for (std::size_t i = begin; i < std::min(begin + run, count); ++i) {
+                    if (beat && i % 64 == 0) beat();
+                    work(workers_[w], i);
+                }
             }
         };
-        parallel_for(workers, workers, run, [] {});
+        parallel_for(workers, workers, take_runs, [] {});
     }
 
     std::vector<int> without_curvature(std::span<const int> vertices) {
@@ -250,6 +259,9 @@ class CurvatureField::Impl {
         has_tensor_.resize(near_.size(), 0);
         std::vector<int> missing;
         std::ranges::copy_if(nearby, std::back_inserter(missing), [&](int n) { return !has_tensor_[n]; });
+        hire(missing.size());
+        // On this thread: memory that each thread asks for itself comes from the system anew every time.
+        for (Worker& worker : workers_) worker.disks.reserve(static_cast<int>(missing.size() / workers_.size()));
         in_parallel(missing.size(), beat,
                     [&](Worker& worker, std::size_t i) { tensors_[missing[i]] = worker.disks.at(near_.vertex(missing[i])); });
         for (const int n : missing) has_tensor_[n] = 1;

@@ -32,6 +32,16 @@ Vec3 triangle_normal(const Surface& surface, int triangle) {
 
 }  // namespace
 
+void DiskTensors::reserve(int vertices) {
+    const int triangles = 3 * vertices, edges = 5 * vertices;
+    triangle_numbers_.reserve(triangles);
+    triangles_.reserve(triangles);
+    met_.reserve(triangles);
+    edge_numbers_.reserve(edges);
+    edges_.reserve(edges);
+    spans_.reserve(edges);
+}
+
 Symmetric DiskTensors::at(int vertex) {
     const Vec3& centre = surface_.position(vertex);
     ++disk_count_;
@@ -67,8 +77,14 @@ bool DiskTensors::cut(int edge, const Vec3& centre, Symmetric& sum) {
     const Edge& e = edges_[edge];
     span = {disk_count_, 0.0, 0.0};
     const Vec3 start = e.start - centre;
-    const double middle = -start.dot(e.way) * e.inverse_length2;
-    const double half2 = (radius_ * radius_ - (start + middle * e.way).squaredNorm()) * e.inverse_length2;
+    const double along = start.dot(e.way), start2 = start.squaredNorm(), radius2 = radius_ * radius_;
+    if (start2 <= radius2 && start2 + 2.0 * along + e.length2 <= radius2 && e.length2 > 0.0) {  // most edges lie inside altogether
+        span.leave = 1.0;
+        sum += e.bending;
+        return true;
+    }
+    const double middle = -along * e.inverse_length2;
+    const double half2 = (radius2 - (start + middle * e.way).squaredNorm()) * e.inverse_length2;
     if (half2 <= 0.0) return false;
     const double half = std::sqrt(half2);
     span.enter = std::clamp(middle - half, 0.0, 1.0);
@@ -166,7 +182,7 @@ int DiskTensors::edge_number(int halfedge) {
     const int from = surface_.from(halfedge), to = surface_.to(halfedge);
     const Vec3 start = surface_.position(std::min(from, to)), way = surface_.position(std::max(from, to)) - start;
     const double length2 = way.squaredNorm(), length = std::sqrt(length2);
-    edges_.push_back({start, way, length2 > 0.0 ? 1.0 / length2 : 0.0, 0.0, Symmetric::Zero()});
+    edges_.push_back({start, way, length2, length2 > 0.0 ? 1.0 / length2 : 0.0, 0.0, Symmetric::Zero()});
     spans_.emplace_back();
     const int twin = surface_.twin(halfedge);
     const double angle = angle_at(twin >= 0 ? std::min(halfedge, twin) : halfedge);

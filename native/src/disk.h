@@ -29,6 +29,8 @@ class DiskTensors {
   public:
     DiskTensors(const Surface& surface, double radius) : surface_(surface), radius_(radius) {}
 
+    /// Room for what the disks of so many vertices need in most meshes.
+    void reserve(int vertices);
     Symmetric at(int vertex);
     /// The signed angle between the normals at a half-edge's edge, in radians, negative where concave; 0 at borders.
     double dihedral(int halfedge) { return edges_[edge_number(halfedge)].angle; }
@@ -38,7 +40,7 @@ class DiskTensors {
 
     struct Edge {
         Vec3 start, way;
-        double inverse_length2;  // 0 where it has no length
+        double length2, inverse_length2;  // 0 where it has no length
         double angle;
         Symmetric bending;  // angle times length times e e^T
     };

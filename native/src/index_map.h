@@ -34,6 +34,11 @@ class IndexMap {
 
     int size() const { return size_; }
 
+    /// Room for so many keys.
+    void reserve(int count) {
+        while (slots_.size() < 2 * static_cast<std::size_t>(count)) grow();
+    }
+
   private:
     static constexpr int empty = -1;
     struct Slot {
