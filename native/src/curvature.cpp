@@ -3,15 +3,12 @@
 
 #include "disk.h"
 #include "index_map.h"
-#include "parallel.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <deque>
 #include <iterator>
 #include <span>
 #include <utility>
@@ -158,16 +155,14 @@ class NearSearch {
 
 class CurvatureField::Impl {
   public:
-    Impl(const Surface& surface, double h, const Options& options, int threads)
+    Impl(const Surface& surface, double h, const Options& options)
         : surface_(surface),
           radius_(options.curvature_radius * h),
           sigma_(options.curvature_smoothing * h),
           limit_(3.0 * sigma_ * (1.0 + 1e-9)),  // on grids neighbours lie at just 3 sigma: rounding must not decide
           negligible_(1e-4 / h),
-          threads_(threads),
-          near_(surface) {
-        renew_workers();
-    }
+          near_(surface),
+          disks_(surface, radius_) {}
 
     VertexCurvature at(int vertex) {
         const int n = near_.number(vertex);
@@ -180,71 +175,33 @@ class CurvatureField::Impl {
         const std::vector<int> fresh = without_curvature(vertices);
         if (fresh.empty()) return;
         make_tensors(fresh, beat);
-        std::vector<VertexCurvature> made(fresh.size());
-        in_parallel(fresh.size(), beat, [&](Worker& worker, std::size_t i) {
-            const int vertex = near_.vertex(fresh[i]);
-            made[i] = principal(smoothed(worker, fresh[i]), vertex_normal(vertex));
-        });
+        curvatures_.reserve(curvatures_.size() + fresh.size());
         for (std::size_t i = 0; i < fresh.size(); ++i) {
-            place_[fresh[i]] = static_cast<int>(curvatures_.size());
-            curvatures_.push_back(made[i]);
+            if (beat && i % 64 == 0) beat();
+            curvatures_.push_back(principal(smoothed(fresh[i]), vertex_normal(near_.vertex(fresh[i]))));
+            place_[fresh[i]] = static_cast<int>(curvatures_.size()) - 1;
         }
-        if (fresh.size() > worth_a_thread) renew_workers();  // what they keep takes more room than it saves time from now on
     }
 
-    double dihedral(int halfedge) { return workers_.front().disks.dihedral(halfedge); }
+    double dihedral(int halfedge) { return disks_.dihedral(halfedge); }
 
   private:
-    /// What one thread works with. What it keeps only saves it work: results do not depend on who made them.
-    struct Worker {
-        Worker(const Surface& surface, double radius) : disks(surface, radius) {}
-        DiskTensors disks;
-        NearSearch search;
-    };
-    static constexpr std::size_t worth_a_thread = 200;  // vertices
+    static constexpr std::size_t many = 200;
 
     const Surface& surface_;
     double radius_, sigma_, limit_, negligible_;
-    int threads_;
     NearGraph near_;
-    std::deque<Worker> workers_;
+    NearSearch search_;
+    DiskTensors disks_;
     std::vector<VertexCurvature> curvatures_;
     // Of each vertex by its number in near_:
     std::vector<int> place_;  // in curvatures_, or -1
     std::vector<Symmetric> tensors_;
     std::vector<char> has_tensor_;
 
-    void renew_workers() {
-        workers_.clear();
-        workers_.emplace_back(surface_, radius_);
-    }
-
-    /// How many threads so much work is worth; there are as many workers at least.
-    int hire(std::size_t count) {
-        const int wanted = std::min(threads_, static_cast<int>(count / worth_a_thread) + 1);
-        while (static_cast<int>(workers_.size()) < wanted) workers_.emplace_back(surface_, radius_);
-        return wanted;
-    }
-
-    /// Calls work(worker, i) for every i below count. A thread takes run after run, so that a late one keeps nobody waiting.
-    template <class Work>
-    void in_parallel(std::size_t count, const Beat& beat, Work&& work) {
-        const int workers = hire(count);
-        const std::size_t run = workers == 1 ? count : worth_a_thread / 2;
-        std::atomic<std::size_t> next = 0;
-        const auto take_runs = [&](int w) {
-            for (std::size_t begin = next.fetch_add(run); begin < count; begin = next.fetch_add(run)) {
-                for (std::size_t i = begin; i < std::min(begin + run, count); ++i) {
-                    if (beat && i % 64 == 0) beat();
-                    work(workers_[w], i);
-                }
-            }
-        };
-        parallel_for(workers, workers, take_runs, [] {});
-    }
-
     std::vector<int> without_curvature(std::span<const int> vertices) {
         std::vector<int> fresh;
+        fresh.reserve(vertices.size());
         for (const int v : vertices) {
             const int n = near_.number(v);
             if (n >= static_cast<int>(place_.size())) place_.resize(2 * n + 1, -1);
@@ -254,17 +211,19 @@ class CurvatureField::Impl {
     }
 
     void make_tensors(const std::vector<int>& fresh, const Beat& beat) {
-        const auto nearby = workers_.front().search.run(near_, fresh, limit_, [&](int n) { near_.expand(n); });
+        const auto nearby = search_.run(near_, fresh, limit_, [&](int n) { near_.expand(n); });
         tensors_.resize(near_.size());
         has_tensor_.resize(near_.size(), 0);
         std::vector<int> missing;
         std::ranges::copy_if(nearby, std::back_inserter(missing), [&](int n) { return !has_tensor_[n]; });
-        hire(missing.size());
-        // On this thread: memory that each thread asks for itself comes from the system anew every time.
-        for (Worker& worker : workers_) worker.disks.reserve(static_cast<int>(missing.size() / workers_.size()));
-        in_parallel(missing.size(), beat,
-                    [&](Worker& worker, std::size_t i) { tensors_[missing[i]] = worker.disks.at(near_.vertex(missing[i])); });
-        for (const int n : missing) has_tensor_[n] = 1;
+        if (missing.size() > many) disks_.reserve(static_cast<int>(missing.size()));
+        for (std::size_t i = 0; i < missing.size(); ++i) {
+            if (beat && i % 64 == 0) beat();
+            tensors_[missing[i]] = disks_.at(near_.vertex(missing[i]));
+            has_tensor_[missing[i]] = 1;
+        }
+        // What the disks share of so many vertices takes more room from now on than it saves time.
+        if (missing.size() > many) disks_ = DiskTensors(surface_, radius_);
     }
 
     Vec3 vertex_normal(int vertex) const {
@@ -283,12 +242,12 @@ class CurvatureField::Impl {
     }
 
     /// The tensors round a vertex, averaged term by term (Alliez et al. 2003).
-    Symmetric smoothed(Worker& worker, int n) {
+    Symmetric smoothed(int n) {
         if (sigma_ == 0.0) return tensors_[n];
         Symmetric sum = Symmetric::Zero();
         double weights = 0.0;
-        for (const int other : worker.search.run(near_, std::span(&n, 1), limit_, [](int) {})) {
-            const double d = worker.search.distance(other), weight = std::exp(-d * d / (2.0 * sigma_ * sigma_));
+        for (const int other : search_.run(near_, std::span(&n, 1), limit_, [](int) {})) {
+            const double d = search_.distance(other), weight = std::exp(-d * d / (2.0 * sigma_ * sigma_));
             sum += weight * tensors_[other];
             weights += weight;
         }
@@ -314,8 +273,8 @@ class CurvatureField::Impl {
     }
 };
 
-CurvatureField::CurvatureField(const Surface& surface, double h, const Options& options, int threads)
-    : impl_(std::make_unique<Impl>(surface, h, options, threads)) {}
+CurvatureField::CurvatureField(const Surface& surface, double h, const Options& options)
+    : impl_(std::make_unique<Impl>(surface, h, options)) {}
 CurvatureField::~CurvatureField() = default;
 CurvatureField::CurvatureField(CurvatureField&&) noexcept = default;
 

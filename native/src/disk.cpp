@@ -43,10 +43,10 @@ void DiskTensors::reserve(int vertices) {
 }
 
 Symmetric DiskTensors::at(int vertex) {
-    const Vec3& centre = surface_.position(vertex);
+    const Vec3& centre = surface_->position(vertex);
     ++disk_count_;
     disk_.clear();
-    for (const int h : surface_.outgoing(vertex)) meet(triangle_number(h / 3));
+    for (const int h : surface_->outgoing(vertex)) meet(triangle_number(h / 3));
     double area = 0.0;
     Symmetric sum = Symmetric::Zero();
     for (std::size_t i = 0; i < disk_.size(); ++i) {
@@ -141,8 +141,8 @@ double DiskTensors::area_inside(const Triangle& t, const Vec3& centre) const {
 int DiskTensors::triangle_number(int triangle) {
     const int number = triangle_numbers_.insert(triangle);
     if (number < static_cast<int>(triangles_.size())) return number;
-    const auto& v = surface_.triangle(triangle);
-    const Vec3 &a = surface_.position(v[0]), p = surface_.position(v[1]) - a, q = surface_.position(v[2]) - a;
+    const auto& v = surface_->triangle(triangle);
+    const Vec3 &a = surface_->position(v[0]), p = surface_->position(v[1]) - a, q = surface_->position(v[2]) - a;
     const Vec3 area = p.cross(q);
     Triangle t{};
     t.id = triangle;
@@ -161,14 +161,14 @@ int DiskTensors::triangle_number(int triangle) {
     for (int side = 0; side < 3; ++side) {
         const int edge = edge_number(3 * triangle + side);
         triangles_[number].edges[side] = edge;
-        triangles_[number].forward[side] = edges_[edge].start == surface_.position(surface_.from(3 * triangle + side));
+        triangles_[number].forward[side] = edges_[edge].start == surface_->position(surface_->from(3 * triangle + side));
     }
     return number;
 }
 
 int DiskTensors::neighbour(int number, int side) {
     if (triangles_[number].neighbours[side] == unknown) {
-        const int twin = surface_.twin(3 * triangles_[number].id + side);
+        const int twin = surface_->twin(3 * triangles_[number].id + side);
         const int next = twin < 0 ? none : triangle_number(twin / 3);
         triangles_[number].neighbours[side] = next;
     }
@@ -176,15 +176,15 @@ int DiskTensors::neighbour(int number, int side) {
 }
 
 int DiskTensors::edge_number(int halfedge) {
-    const int number = edge_numbers_.insert(surface_.edge(halfedge));
+    const int number = edge_numbers_.insert(surface_->edge(halfedge));
     if (number < static_cast<int>(edges_.size())) return number;
     // Always the same direction, whoever asks first: so the same vertex has the same curvature to the last bit.
-    const int from = surface_.from(halfedge), to = surface_.to(halfedge);
-    const Vec3 start = surface_.position(std::min(from, to)), way = surface_.position(std::max(from, to)) - start;
+    const int from = surface_->from(halfedge), to = surface_->to(halfedge);
+    const Vec3 start = surface_->position(std::min(from, to)), way = surface_->position(std::max(from, to)) - start;
     const double length2 = way.squaredNorm(), length = std::sqrt(length2);
     edges_.push_back({start, way, length2, length2 > 0.0 ? 1.0 / length2 : 0.0, 0.0, Symmetric::Zero()});
     spans_.emplace_back();
-    const int twin = surface_.twin(halfedge);
+    const int twin = surface_->twin(halfedge);
     const double angle = angle_at(twin >= 0 ? std::min(halfedge, twin) : halfedge);
     if (length > 0.0) {
         const Vec3 e = way / length;
@@ -198,11 +198,11 @@ int DiskTensors::edge_number(int halfedge) {
 
 /// A fold flat on itself has no sign under rounding: it counts as concave.
 double DiskTensors::angle_at(int halfedge) const {
-    const int twin = surface_.twin(halfedge);
+    const int twin = surface_->twin(halfedge);
     if (twin < 0) return 0.0;
-    const Vec3 n1 = triangle_normal(surface_, halfedge / 3), n2 = triangle_normal(surface_, twin / 3);
+    const Vec3 n1 = triangle_normal(*surface_, halfedge / 3), n2 = triangle_normal(*surface_, twin / 3);
     if (n1.isZero(0.0) || n2.isZero(0.0)) return 0.0;
-    const Vec3 along = (surface_.position(surface_.to(halfedge)) - surface_.position(surface_.from(halfedge))).normalized();
+    const Vec3 along = (surface_->position(surface_->to(halfedge)) - surface_->position(surface_->from(halfedge))).normalized();
     const double angle = std::atan2(along.dot(n1.cross(n2)), n1.dot(n2));
     return angle > std::numbers::pi - 1e-6 ? -angle : angle;
 }

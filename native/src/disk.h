@@ -27,7 +27,7 @@ inline Eigen::Matrix3d full(const Symmetric& s) {
 /// out. What belongs to an edge or to a triangle alone is kept, since the disks of neighbours overlap.
 class DiskTensors {
   public:
-    DiskTensors(const Surface& surface, double radius) : surface_(surface), radius_(radius) {}
+    DiskTensors(const Surface& surface, double radius) : surface_(&surface), radius_(radius) {}
 
     /// Room for what the disks of so many vertices need in most meshes.
     void reserve(int vertices);
@@ -59,7 +59,7 @@ class DiskTensors {
     };
     static constexpr int unknown = -2, none = -1;
 
-    const Surface& surface_;
+    const Surface* surface_;
     double radius_;
     IndexMap edge_numbers_, triangle_numbers_;
     std::vector<Edge> edges_;

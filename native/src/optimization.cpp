@@ -49,17 +49,16 @@ std::string where_it_stops(const ContourGraph& graph, const Wishes& wishes, cons
 }  // namespace
 
 Optimization::Optimization(const Surface& surface, const Contour& contour, const Options& options, const Wishes& wishes,
-                           const Scales* scales, int threads)
+                           const Scales* scales)
     : surface_(surface),
       options_(options),
       phase_options_(options),
       wishes_(wishes),
       given_(contour),
-      threads_(threads),
       stopwatch_(result_.statistics.seconds),
       feasible_(meets(contour, wishes)) {
-    setting_ = stopwatch_.time(
-        "curvature", [&] { return std::make_unique<Setting>(surface, contour, options, wishes.attractors, scales, threads); });
+    setting_ = stopwatch_.time("curvature",
+                               [&] { return std::make_unique<Setting>(surface, contour, options, wishes.attractors, scales); });
     if (!wishes_.region_density.empty() && options_.region_weight != 0.0) {
         enclosed_ = enclosed_change(surface_, wishes_.region_density, setting_->scales.given, given_);
     }

@@ -37,9 +37,9 @@ class Stopwatch {
 /// for each phase begin_phase, then for each iteration cut_out, grow and search; last finish.
 class Optimization {
   public:
-    /// `contour` must be checked; surface, options and wishes must outlive the object. `threads`: on how many it may work itself.
-    Optimization(const Surface& surface, const Contour& contour, const Options& options, const Wishes& wishes, const Scales* scales,
-                 int threads);
+    /// `contour` must be checked; surface, options and wishes must outlive the object.
+    Optimization(const Surface& surface, const Contour& contour, const Options& options, const Wishes& wishes,
+                 const Scales* scales);
 
     /// Iterations with one k, measured with its Steiner points: a segment of the history.
     void begin_phase(int steiner);
@@ -70,7 +70,6 @@ class Optimization {
     Options phase_options_;  // with the width of the phase under way
     const Wishes& wishes_;
     const Contour given_;
-    const int threads_;
     Result result_;
     Stopwatch stopwatch_;
     bool feasible_;  // the contour reached so far has all required elements

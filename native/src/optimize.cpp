@@ -54,7 +54,7 @@ class Company {
             const Scales* scales = task.scales ? &*task.scales : nullptr;
             const Contour checked = checked_input(surface, task.contour, options, task.wishes, scales);
             check_barriers(surface, checked, task.wishes);
-            contours_[i] = std::make_unique<Optimization>(surface, checked, options, task.wishes, scales, threads_each());
+            contours_[i] = std::make_unique<Optimization>(surface, checked, options, task.wishes, scales);
         });
     }
 
@@ -83,8 +83,6 @@ class Company {
     /// A refined search needs the regular result of the whole surface to begin from.
     static bool whole_and_refined(const Options& options) { return !options.width && options.refinement > 0; }
     int count() const { return static_cast<int>(contours_.size()); }
-    /// Where there are fewer contours than threads, a contour's own stages share the others.
-    int threads_each() const { return std::max(1, thread_count(options_.threads) / std::max(1, count())); }
 
     /// An iteration has three steps: patches, bands, searches.
     void report(int step) { watch_.advance((3.0 * iteration_ + step) / (3.0 * (regular_iterations_ + options_.iterations))); }
@@ -200,8 +198,7 @@ std::vector<VertexCurvature> curvature(const Surface& surface, const Options& op
     options.check();
     std::vector<VertexCurvature> result;
     if (surface.face_count() == 0) return std::vector<VertexCurvature>(surface.vertex_count());
-    const CurvatureField field(surface, scales ? scales->h : whole_mean_edge_length(surface), options,
-                               thread_count(options.threads));
+    const CurvatureField field(surface, scales ? scales->h : whole_mean_edge_length(surface), options);
     std::vector<int> all(surface.vertex_count());
     std::iota(all.begin(), all.end(), 0);
     field.prepare(all);

@@ -12,16 +12,12 @@
 
 namespace mrc {
 
-/// 0: as many as the machine has.
-inline int thread_count(int threads) {
-    return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
 /// Calls task(i) for every i from 0 up to count, on `threads` threads; 0: as many as the machine has. All tasks are done when it
 /// returns; of what they throw, the exception of the lowest i is thrown here. While the calling thread waits, it calls idle() often.
 template <class Task, class Idle>
 void parallel_for(int count, int threads, Task&& task, Idle&& idle) {
-    const int workers = std::min(thread_count(threads), count);
+    const int wanted = threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency());
+    const int workers = std::min(std::max(wanted, 1), count);
     std::vector<std::exception_ptr> thrown(count);
     std::atomic<int> next = 0;
     std::mutex mutex;

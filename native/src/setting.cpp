@@ -23,9 +23,9 @@ void check_scales(const Surface& surface, const Scales& scales) {
 }
 
 Setting::Setting(const Surface& surface, const Contour& contour, const Options& options, const std::vector<Attractor>& attractors,
-                 const Scales* given, int threads)
+                 const Scales* given)
     : h(given ? given->h : mean_edge_length(surface, contour)),
-      field(surface, h, options, threads),
+      field(surface, h, options),
       scales(given ? *given : contour_scales(surface, field, h, contour, options)),
       energy(surface, field, scales, options, attractors) {
     check_scales(surface, scales);

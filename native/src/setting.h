@@ -16,7 +16,7 @@ void check_scales(const Surface& surface, const Scales& scales);
 /// Scales, curvature and energy, made once for a contour.
 struct Setting {
     Setting(const Surface& surface, const Contour& contour, const Options& options, const std::vector<Attractor>& attractors,
-            const Scales* given, int threads = 1);
+            const Scales* given);
     Setting(const Setting&) = delete;
     Setting& operator=(const Setting&) = delete;
 

@@ -25,8 +25,8 @@ struct VertexCurvature {
 /// along the surface. Hidden faces count. The surface must outlive the field.
 class CurvatureField {
   public:
-    /// `h`: the mean edge length, above 0. `threads`: on how many it may work; no result depends on it.
-    CurvatureField(const Surface& surface, double h, const Options& options, int threads = 1);
+    /// `h`: the mean edge length, above 0.
+    CurvatureField(const Surface& surface, double h, const Options& options);
     ~CurvatureField();
     CurvatureField(CurvatureField&&) noexcept;
 
