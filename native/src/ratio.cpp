@@ -118,9 +118,10 @@ class Search {
     /// Potentials under which no path at all undercuts the threshold are shortest distances where each lap costs the threshold less,
     /// by Bellman and Ford: a source starts where the last lap left its destination. They exist where no closed walk of several laps
     /// is too cheap; such a walk crosses itself, and laps that exchange their ends where they cross are contours of their own.
+    /// At the lambda of no path, which may be any, potentials would grow until the paths' own sums are lost in their rounding.
     bool lower_potentials(const std::vector<int>& set) {
-        if (!graph_.matched || set.size() == 1) return false;
-        const double least = threshold(pass_.lambda) < infinity ? threshold(pass_.lambda) : 0.0;
+        if (!graph_.matched || set.size() == 1 || !result_.found) return false;
+        const double least = threshold(pass_.lambda);
         bool lowered = false;
         for (const int i : set) {
             const double change = bound_at(pass_, i) - least;

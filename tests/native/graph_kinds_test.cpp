@@ -87,7 +87,7 @@ TEST_P(EveryKind, optimum_by_counts_is_that_of_brute_force_and_of_karps_programm
 TEST_P(EveryKind, a_warm_start_changes_nothing) {
     for_each_graph(40000, [](const WeightedGraph& graph, unsigned) {
         const BestPath best = brute_force(graph);
-        for (const double guess : {-3.0, 0.0, best.objective, 5.0}) {
+        for (const double guess : {-1e15, -3.0, 0.0, best.objective, 5.0, 1e15}) {
             if (!std::isfinite(guess)) continue;
             const mrc::RatioResult result = mrc::minimum_ratio(graph, {.objective = {}, .guess = mrc::Terminal{-1, guess, 1.0}});
             ASSERT_EQ(result.found, std::isfinite(best.objective));

@@ -78,7 +78,7 @@ TEST_P(RandomGraphs, where_the_search_begins_changes_nothing_but_the_work) {
         const WeightedGraph graph = layered_graph(seed, GetParam());
         const mrc::RatioResult cold = mrc::minimum_ratio(graph);
         if (!cold.found) continue;
-        for (const double guess : {-3.0, 0.0, cold.objective, 5.0}) {
+        for (const double guess : {-1e15, -3.0, 0.0, cold.objective, 5.0, 1e15}) {
             const mrc::RatioResult warm = mrc::minimum_ratio(graph, {.objective = {}, .guess = mrc::Terminal{-1, guess, 1.0}});
             EXPECT_TRUE(warm.found);
             EXPECT_NEAR(warm.objective, cold.objective, 1e-12);
