@@ -173,6 +173,47 @@ TEST(Ratio, bounds_save_passes_over_one_search_a_source) {
     EXPECT_LT(ours, thesis);
 }
 
+/// Pairs with one path each, of ratio 2, 1, 1, ...; and from any source to any other destination a path that costs the difference of
+/// their heights more, or less: potentials of these heights show at once that none of them is too cheap.
+WeightedGraph pairs_at_heights(int count) {
+    WeightedGraph graph;
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> height(0.0, 1.0);
+    std::vector<double> heights(count);
+    for (double& h : heights) h = height(random);
+    graph.first_arc.assign(count + 1, 0);
+    for (int end = 0; end < count; ++end) {
+        for (int source = 0; source < count; ++source) {
+            graph.from.push_back(source);
+            graph.f.push_back(end == 0 && source == 0 ? 2.0 : 1.0 + heights[end] - heights[source]);
+            graph.g.push_back(1.0);
+        }
+        graph.first_arc.push_back(graph.arc_count());
+        graph.sources.push_back({end});
+        graph.destinations.push_back({count + end});
+    }
+    return graph;
+}
+
+TEST(Ratio, potentials_decide_pairs_of_any_number_without_splitting) {
+    for (const int count : {10, 50, 200}) {
+        const mrc::RatioResult result = mrc::minimum_ratio(pairs_at_heights(count));
+        EXPECT_NEAR(result.objective, 1.0, 1e-12);
+        EXPECT_LE(result.passes, 4) << count << " pairs";
+    }
+}
+
+TEST(Ratio, potentials_leave_the_bounds_of_single_pairs_as_they_are) {
+    int passes = 0;
+    for (unsigned seed = 0; seed < 30; ++seed) {
+        const mrc::RatioResult result =
+            mrc::minimum_ratio(layered_graph(seed, true, 20, 12), {.objective = {1.0, 0.1}, .guess = {}});
+        EXPECT_EQ(result.labels, 0) << "seed " << seed;
+        passes += result.passes;
+    }
+    EXPECT_GT(passes, 200);
+}
+
 /// Two pairs: first a chain of diamonds whose many paths are bad, nearly alike and hard to tell apart; then three paths of which
 /// the best lies above the line through the other two. A pass from both sources at once sees nothing of the second pair.
 WeightedGraph distracting_graph() {
