@@ -70,8 +70,8 @@ struct RatioResult {
 /// Dinkelbach's descent on lambda with one incumbent for all sources, and branch and bound over the set of sources: one relaxation
 /// from a set of sources at once bounds every pair of the set from below. A pair whose bound is not below the threshold at the
 /// current lambda is out for good, since the best only improves. Potentials at the sources tighten the bounds of what is left; a set
-/// that they do not decide is split. With a bias the optimum of a pair may lie
-/// above its lower hull: then the partial paths whose bounds beat the best are searched one by one.
+/// that they do not decide is split. With a bias the optimum of a pair may lie above its lower hull: then the partial paths whose
+/// bounds beat the best are searched one by one.
 RatioResult minimum_ratio(const WeightedGraph& graph, const RatioOptions& options = {});
 
 }  // namespace mrc
