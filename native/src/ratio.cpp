@@ -108,7 +108,7 @@ class Search {
             std::vector<int> undecided;
             const bool improved = collect(set, undecided);
             laps = improved ? 0 : laps + 1;
-            if (undecided.empty() || (!improved && (laps == most_laps || !lower_potentials(undecided)))) return undecided;
+            if (undecided.empty() || (!improved && (laps >= most_laps || !lower_potentials(undecided)))) return undecided;
             set = std::move(undecided);
         }
     }
