@@ -37,6 +37,15 @@ void for_each_face(const Surface& surface, int vertex, Visit&& visit) {
     }
 }
 
+/// The polygon's unit normal times its angle at the vertex.
+Vec3 weighted_normal(const Surface& surface, int face, int vertex) {
+    const auto corners = surface.face(face);
+    const auto i = static_cast<std::size_t>(std::ranges::find(corners, vertex) - corners.begin());
+    const Vec3 area = polygon_area_vector(surface, face);
+    const double size = area.norm();
+    return size > 0.0 ? Vec3((corner_angle(surface, corners, i) / size) * area) : Vec3(Vec3::Zero());
+}
+
 }  // namespace
 
 Vec3 polygon_area_vector(const Surface& surface, int face) {
@@ -55,6 +64,12 @@ double vertex_area(const Surface& surface, int vertex) {
         area += polygon_area_vector(surface, face).norm() / static_cast<double>(surface.face(face).size());
     });
     return area;
+}
+
+Vec3 vertex_normal(const Surface& surface, int vertex) {
+    Vec3 sum = Vec3::Zero();
+    for_each_face(surface, vertex, [&](int face) { sum += weighted_normal(surface, face, vertex); });
+    return sum.norm() > 1e-12 ? Vec3(sum.normalized()) : Vec3(Vec3::UnitZ());
 }
 
 namespace {
@@ -183,7 +198,7 @@ class CurvatureField::Impl {
         std::vector<VertexCurvature> made(fresh.size());
         in_parallel(fresh.size(), beat, [&](Worker& worker, std::size_t i) {
             const int vertex = near_.vertex(fresh[i]);
-            made[i] = principal(smoothed(worker, fresh[i]), vertex_normal(vertex));
+            made[i] = principal(smoothed(worker, fresh[i]), vertex_normal(surface_, vertex));
         });
         for (std::size_t i = 0; i < fresh.size(); ++i) {
             place_[fresh[i]] = static_cast<int>(curvatures_.size());
@@ -253,21 +268,6 @@ class CurvatureField::Impl {
         in_parallel(missing.size(), beat,
                     [&](Worker& worker, std::size_t i) { tensors_[missing[i]] = worker.disks.at(near_.vertex(missing[i])); });
         for (const int n : missing) has_tensor_[n] = 1;
-    }
-
-    Vec3 vertex_normal(int vertex) const {
-        Vec3 sum = Vec3::Zero();
-        for_each_face(surface_, vertex, [&](int face) { sum += weighted_normal(face, vertex); });
-        return sum.norm() > 1e-12 ? Vec3(sum.normalized()) : Vec3(Vec3::UnitZ());
-    }
-
-    /// The polygon's unit normal times its angle at the vertex.
-    Vec3 weighted_normal(int face, int vertex) const {
-        const auto corners = surface_.face(face);
-        const auto i = static_cast<std::size_t>(std::ranges::find(corners, vertex) - corners.begin());
-        const Vec3 area = polygon_area_vector(surface_, face);
-        const double size = area.norm();
-        return size > 0.0 ? Vec3((corner_angle(surface_, corners, i) / size) * area) : Vec3(Vec3::Zero());
     }
 
     /// The tensors round a vertex, averaged term by term (Alliez et al. 2003).
