@@ -13,17 +13,22 @@ from . import mesh_access, native, parameters
 _kept = {}  # mesh name -> (MeshArrays, Surface), of the meshes of the last call
 
 
-def optimize_contour(obj, vertices, **settings):
-    """The minimum ratio contour near a closed one, given by its vertices in order; the mesh stays as it is."""
+def optimize_contour(obj, vertices, close=False, **settings):
+    """The minimum ratio contour near a closed one, given by its vertices in order; the mesh stays as it is.
+
+    With `close`, the vertices are a chain, a quarter of a loop or more, that is closed round its limb first. The setting
+    `anchor` says how strongly the result is held near the loop so closed; 0: not at all.
+    """
     mesh_access.synchronize(obj)
-    return optimize_on(surface_of(obj), vertices, **settings)
+    return optimize_on(surface_of(obj), vertices, close=close, **settings)
 
 
-def optimize_on(surface, vertices, **settings):
+def optimize_on(surface, vertices, close=False, **settings):
     """The same on a native surface."""
     mrc = native.module()
     options = mrc.Options(**parameters.native_options(**settings))
-    return mrc.optimize(surface, vertices, closed=True, options=options)
+    loop = mrc.close_contour(surface, vertices) if close else vertices
+    return mrc.optimize(surface, loop, closed=True, options=options)
 
 
 def surface_of(obj, beside=()):

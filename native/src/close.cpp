@@ -4,6 +4,7 @@
 #include <mrc/curvature.h>
 #include <mrc/distances.h>
 #include <mrc/patch.h>
+#include <mrc/scales.h>
 
 #include <Eigen/Eigenvalues>
 
@@ -23,11 +24,12 @@ namespace mrc {
 namespace {
 
 // Measured on quarters of part boundaries that people and segmentations drew; twice or half of each changes little.
-constexpr double near_weight = 1.0;    // what a way beside the chain costs more than one far from it
-constexpr double facing_weight = 2.0;  // what a way on the chain's side of the limb costs more than one on the other side
-constexpr double along_weight = 3.0;   // what a step along the limb costs more than one round it, squared
-constexpr double seam_weight = 5.0;    // in lengths of the chain: passing the chain's middle just beside it
-constexpr double facing_cosine = 0.2;  // nothing passes the chain's middle where the surface faces as the chain does
+constexpr double near_weight = 1.0;     // what a way beside the chain costs more than one far from it
+constexpr double facing_weight = 2.0;   // what a way on the chain's side of the limb costs more than one on the other side
+constexpr double along_weight = 3.0;    // what a step along the limb costs more than one round it, squared
+constexpr double feature_weight = 0.8;  // what a way along the deepest crease costs less than one on a ridge
+constexpr double seam_weight = 5.0;     // in lengths of the chain: passing the chain's middle just beside it
+constexpr double facing_cosine = 0.2;   // nothing passes the chain's middle where the surface faces as the chain does
 
 /// What a chain says about the limb that it lies on.
 struct Limb {
@@ -88,6 +90,7 @@ class ClosingSearch {
           chain_(chain),
           limb_(limb_at(surface, chain)),
           from_chain_(surface, vertex_contour(chain, false)),
+          curvature_(surface, mean_edge_length(surface, vertex_contour(chain, false)), Options{}),
           inner_(chain.begin() + 1, chain.end() - 1) {}
 
     /// The vertices between the chain's last and its first.
@@ -120,6 +123,7 @@ class ClosingSearch {
     const std::vector<int>& chain_;
     Limb limb_;
     DistanceField from_chain_;
+    CurvatureField curvature_;
     std::unordered_set<int> inner_;
     std::unordered_map<int, Place> places_;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
@@ -127,9 +131,12 @@ class ClosingSearch {
     /// Lee et al.: the distance function times the normal function, each 1 far away and on the other side of the limb.
     Place make_place(int vertex) const {
         Place place;
-        place.facing = vertex_normal(surface_, vertex).dot(limb_.normal);
+        const VertexCurvature& curvature = curvature_.at(vertex);
+        const double depth = 0.5 * limb_.length * std::max(0.0, -curvature.kappa_min);
+        place.facing = curvature.normal.dot(limb_.normal);
         const double near = std::exp(-2.0 * from_chain_.at(vertex) / limb_.length);
-        place.weight = (1.0 + near_weight * near) * (1.0 + facing_weight * std::max(0.0, place.facing));
+        place.weight = (1.0 + near_weight * near) * (1.0 + facing_weight * std::max(0.0, place.facing)) *
+                       (1.0 - feature_weight * depth / (1.0 + depth));
         place.share = limb_.share[from_chain_.nearest(vertex)];
         return place;
     }

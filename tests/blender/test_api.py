@@ -28,6 +28,15 @@ def test_edit_mode_sees_what_was_edited_and_changes_nothing():
     assert everything(obj) == before
 
 
+def test_a_quarter_of_a_loop_is_closed_first():
+    obj = grooved_cylinder()
+    result = api.optimize_contour(obj, rough_loop(GROOVE - 3)[5:16], close=True)
+    assert result.status == "improved"
+    assert edge_set(np.asarray(result.vertices).tolist()) == edge_set(ring(GROOVE))
+    with pytest.raises(ValueError, match="12 "):
+        api.optimize_contour(obj, [12], close=True)
+
+
 def test_bad_input_is_named():
     obj = grooved_cylinder()
     with pytest.raises(ValueError, match=str(ring(0)[0])):
