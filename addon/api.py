@@ -16,8 +16,8 @@ _kept = {}  # mesh name -> (MeshArrays, Surface), of the meshes of the last call
 def optimize_contour(obj, vertices, close=False, **settings):
     """The minimum ratio contour near a closed one, given by its vertices in order; the mesh stays as it is.
 
-    With `close`, the vertices are a chain, a quarter of a loop or more, that is closed round its limb first. The setting
-    `anchor` says how strongly the result is held near the loop so closed; 0: not at all.
+    With `close`, the vertices are a chain, a quarter of a loop or more, that is closed round its limb first. The
+    setting `anchor` says how strongly the result is held near the loop so closed; 0: not at all.
     """
     mesh_access.synchronize(obj)
     return optimize_on(surface_of(obj), vertices, close=close, **settings)

@@ -82,6 +82,13 @@ Limb limb_at(const Surface& surface, const std::vector<int>& chain) {
     return limb;
 }
 
+/// Smoothing would take most of the time and finds no more limbs.
+Options unsmoothed() {
+    Options options;
+    options.curvature_smoothing = 0.0;
+    return options;
+}
+
 /// Dijkstra's search from the chain's last vertex to its first.
 class ClosingSearch {
   public:
@@ -90,7 +97,7 @@ class ClosingSearch {
           chain_(chain),
           limb_(limb_at(surface, chain)),
           from_chain_(surface, vertex_contour(chain, false)),
-          curvature_(surface, mean_edge_length(surface, vertex_contour(chain, false)), Options{}),
+          curvature_(surface, mean_edge_length(surface, vertex_contour(chain, false)), unsmoothed()),
           inner_(chain.begin() + 1, chain.end() - 1) {}
 
     /// The vertices between the chain's last and its first.
@@ -105,10 +112,10 @@ class ClosingSearch {
             if (vertex == goal) return path_to(place.previous);
             surface_.for_each_real_edge(vertex, [&](int neighbour, int) { relax(vertex, neighbour, cost); });
         }
-        throw InvalidInput("nothing leads from the chain's last vertex " + std::to_string(start) + " round to its first vertex " +
+        throw InvalidInput("nothing leads from vertex " + std::to_string(start) + ", one end of the chain, round to vertex " +
                            std::to_string(goal) +
-                           ": the surface does not turn away behind the chain, or borders, hidden or non-manifold faces are in "
-                           "the way; draw it on a limb, draw more of the loop, or reveal what is hidden");
+                           ", its other end: the surface does not turn away behind the chain, or borders, hidden or non-manifold "
+                           "faces are in the way; draw the chain on a limb, draw more of the loop, or reveal what is hidden");
     }
 
   private:
@@ -128,7 +135,8 @@ class ClosingSearch {
     std::unordered_map<int, Place> places_;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 
-    /// Lee et al.: the distance function times the normal function, each 1 far away and on the other side of the limb.
+    /// After Lee et al.: a distance function times a normal function, each 1 far away and on the limb's other side, times a feature
+    /// function, which falls from 1 where nothing is concave to 0.2. Its unit is half the chain's length, so that scale is no matter.
     Place make_place(int vertex) const {
         Place place;
         const VertexCurvature& curvature = curvature_.at(vertex);
@@ -146,10 +154,11 @@ class ClosingSearch {
         return known != places_.end() ? known->second : places_.emplace(vertex, make_place(vertex)).first->second;
     }
 
-    /// The cost of a step: length, longer along the limb's axis, times the mean weight. The seam is where points nearer to the
-    /// chain's first half meet those nearer to its second. It runs through the chain's middle and behind the limb, and every
-    /// closing path passes it: behind the limb, where the nearest points of the chain lie far apart, and not where the surface
-    /// faces as the chain does. Seam and axis are not in Lee et al.: without them a short chain closes beside itself.
+    /// The cost of a step ab: sqrt(|ab|^2 + along_weight (ab . axis)^2) times the mean weight, and more where it passes the seam.
+    /// This is where points nearer to the chain's first half meet those nearer to its second: through the chain's middle and
+    /// behind the limb. Every closing path passes it, and should do so behind: nothing does where the surface faces as the chain
+    /// does, and elsewhere it costs the more, the less of the chain lies between the nearest points of a and b.
+    /// Seam and axis are not in Lee et al.: without them a short chain closes beside itself.
     double step_cost(int a, int b) {
         const Place &p = place_at(a), &q = place_at(b);
         const Vec3 step = surface_.position(b) - surface_.position(a);

@@ -146,7 +146,11 @@ def test_rigid_motion_scale_and_renumbering_change_nothing():
         mesh, _, _ = limb(rng)
         chain = part_of(mesh, rough_ring(rng), rng.choice(SHARES), rng)
         loop = mrc.close_contour(surface_of(mesh), chain)
-        for other in (meshes.rigidly_moved(mesh, rng), mesh.moved(mesh.positions * 1e-3), mesh.moved(mesh.positions * 1e4)):
+        for other in (
+            meshes.rigidly_moved(mesh, rng),
+            mesh.moved(mesh.positions * 1e-3),
+            mesh.moved(mesh.positions * 1e4),
+        ):
             np.testing.assert_array_equal(mrc.close_contour(surface_of(other), chain), loop)
         other, number = meshes.renumbered(mesh, rng)
         np.testing.assert_array_equal(mrc.close_contour(surface_of(other), number[chain]), number[loop])
@@ -190,7 +194,7 @@ def plane(rows=12, columns=15):
 
 
 def test_nothing_leads_round_on_a_plane():
-    with pytest.raises(ValueError, match="vertex 83.*vertex 79.*draw"):
+    with pytest.raises(ValueError, match="vertex 83.*vertex 79.*draw the chain on a limb"):
         mrc.close_contour(surface_of(plane()), np.arange(79, 84))
 
 
