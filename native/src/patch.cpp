@@ -76,8 +76,8 @@ std::tuple<int, int, long long> place_key(const SurfacePoint& p) {
 void check_distinct(const Contour& contour) {
     const std::size_t least = contour.closed ? 3 : 2;
     if (contour.points.size() < least) {
-        throw InvalidInput("a contour of " + std::to_string(contour.points.size()) + " vertices: a " +
-                           (contour.closed ? "closed" : "open") + " contour needs at least " + std::to_string(least));
+        throw InvalidInput("a contour of " + std::to_string(contour.points.size()) + " vertices: " +
+                           (contour.closed ? "a closed" : "an open") + " contour needs at least " + std::to_string(least));
     }
     std::set<std::tuple<int, int, long long>> seen;
     for (const SurfacePoint& p : contour.points) {
