@@ -105,12 +105,13 @@ class ClosingSearch {
         const int start = chain_.back(), goal = chain_.front();
         reach(start, 0.0, -1);
         while (!queue_.empty()) {
-            const auto [cost, vertex] = queue_.top();
+            const Entry entry = queue_.top();
+            const int vertex = entry.second;
             queue_.pop();
             Place& place = places_.at(vertex);
             if (std::exchange(place.settled, true)) continue;
             if (vertex == goal) return path_to(place.previous);
-            surface_.for_each_real_edge(vertex, [&](int neighbour, int) { relax(vertex, neighbour, cost); });
+            surface_.for_each_real_edge(vertex, [&](int neighbour, int) { relax(vertex, neighbour, entry.first); });
         }
         throw InvalidInput("nothing leads from vertex " + std::to_string(start) + ", one end of the chain, round to vertex " +
                            std::to_string(goal) +
