@@ -8,7 +8,7 @@
 The settings are those of `parameters.SETTINGS`. Bad input raises a ValueError that names the elements.
 """
 
-from . import mesh_access, native, parameters
+from . import mesh_access, native, parameters, seams, segmentation
 
 _kept = {}  # mesh name -> (MeshArrays, Surface), of the meshes of the last call
 
@@ -29,6 +29,32 @@ def optimize_on(surface, vertices, close=False, **settings):
     options = mrc.Options(**parameters.native_options(**settings))
     loop = mrc.close_contour(surface, vertices) if close else vertices
     return mrc.optimize(surface, loop, closed=True, options=options)
+
+
+def optimize_seams(obj, selected_only=False, apply=False, **settings):
+    """Optimizes all seams of a mesh, or those among its selected edges; with apply they move there.
+
+    Returns the native results, one for each chain between junctions and each closed loop that could move.
+    """
+    mesh_access.synchronize(obj)
+    plan = seams.plan(obj, lambda: surface_of(obj), selected_only, **settings)
+    if apply and plan.changed:
+        seams.write(obj, plan)
+    return list(plan.taken_results().values())
+
+
+def optimize_segmentation(obj, source="FACE_SETS", attribute="", apply=False, **settings):
+    """Optimizes the borders between the regions of a labelling; with apply the labels move with them.
+
+    source: FACE_SETS, MATERIAL or ATTRIBUTE; an attribute's name alone is enough.
+    Returns the native results, as optimize_seams does.
+    """
+    mesh_access.synchronize(obj)
+    labelling = segmentation.read_labelling(obj, "ATTRIBUTE" if attribute else source, attribute)
+    plan = segmentation.plan(obj, lambda: surface_of(obj), labelling, **settings)
+    if apply and plan.changed:
+        segmentation.write(obj, labelling, plan)
+    return list(plan.taken_results().values())
 
 
 def surface_of(obj, beside=()):

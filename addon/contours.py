@@ -21,7 +21,7 @@ def sort_edges(edges):
     vertices, ends = np.unique(edges, return_inverse=True)
     ends = ends.reshape(-1, 2)
     degrees = np.bincount(ends.ravel(), minlength=len(vertices))
-    labels = _component_labels(ends, len(vertices))
+    labels = component_labels(ends, len(vertices))
     branching = np.unique(labels[degrees > 2])
     open_ended = np.setdiff1d(labels[degrees == 1], branching)
     closed = np.setdiff1d(labels, np.union1d(branching, open_ended))
@@ -62,16 +62,17 @@ def region_border(face_offsets, corner_edges, selected, hidden, edge_count):
     return np.flatnonzero(inside & outside)
 
 
-def _component_labels(ends, count):
-    """The lowest vertex of each vertex's connected piece: the lower root takes the other, until nothing moves."""
+def component_labels(ends, count):
+    """The lowest member of each one's connected piece: the lower root takes the other, until nothing moves."""
     labels = np.arange(count)
-    while True:
+    while len(ends):
         roots = labels[ends]
-        if np.array_equal(roots[:, 0], roots[:, 1]):
-            return labels
+        apart = roots[:, 0] != roots[:, 1]
+        ends, roots = ends[apart], roots[apart]
         np.minimum.at(labels, roots.max(axis=1), roots.min(axis=1))
         while not np.array_equal(labels, labels[labels]):
             labels = labels[labels]
+    return labels
 
 
 def _neighbour_pairs(ends, degrees):

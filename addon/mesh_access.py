@@ -69,6 +69,79 @@ def read_selection(obj, face_mode):
 
 
 @dataclass(frozen=True)
+class EdgeArrays:
+    """What networks.make_topology is made from, in its order."""
+
+    edges: np.ndarray
+    face_offsets: np.ndarray
+    corner_vertices: np.ndarray
+    corner_edges: np.ndarray
+    hidden_faces: np.ndarray
+
+
+def read_edge_arrays(mesh):
+    """The arrays of a synchronized mesh."""
+    return EdgeArrays(
+        edges=_read(mesh.edges, "vertices", np.int32, 2),
+        face_offsets=_face_offsets(mesh),
+        corner_vertices=_read(mesh.loops, "vertex_index", np.int32),
+        corner_edges=_read(mesh.loops, "edge_index", np.int32),
+        hidden_faces=np.flatnonzero(_read(mesh.polygons, "hide", bool)),
+    )
+
+
+def read_seams(mesh):
+    """Of a synchronized mesh, which edges are seams, and which are selected."""
+    return _read(mesh.edges, "use_seam", bool), _read(mesh.edges, "select", bool)
+
+
+def write_seams(mesh, old_edges, new_edges):
+    """Takes the seam from the old edges, given by their numbers, and sets it on the new ones, outside Edit Mode."""
+    for edges, value in ((old_edges, False), (new_edges, True)):
+        for edge in edges.tolist():
+            mesh.edges[edge].use_seam = value
+    mesh.update()
+
+
+def read_labels(mesh, attribute):
+    """The labels of a synchronized mesh's faces: of an integer face attribute, or of the material slots (None).
+
+    None where there is no such attribute. In Edit Mode only the bmesh shows what is in one.
+    """
+    if attribute is None:
+        return _read(mesh.polygons, "material_index", np.int32)
+    layer = mesh.attributes.get(attribute)
+    if layer is None or (layer.domain, layer.data_type) != ("FACE", "INT"):
+        return None
+    if not mesh.is_editmode:
+        return _read(layer.data, "value", np.int32)
+    bm = bmesh.from_edit_mesh(mesh)
+    layer = bm.faces.layers.int[attribute]
+    return np.fromiter((face[layer] for face in bm.faces), np.int32, len(bm.faces))
+
+
+def write_labels(mesh, attribute, faces, labels):
+    """Gives faces their labels, where read_labels reads them."""
+    if not mesh.is_editmode:
+        for face, label in zip(faces.tolist(), labels.tolist()):
+            if attribute is None:
+                mesh.polygons[face].material_index = label
+            else:
+                mesh.attributes[attribute].data[face].value = label
+        mesh.update()
+        return
+    bm = bmesh.from_edit_mesh(mesh)
+    bm.faces.ensure_lookup_table()
+    layer = bm.faces.layers.int.get(attribute) if attribute is not None else None
+    for face, label in zip(faces.tolist(), labels.tolist()):
+        if attribute is None:
+            bm.faces[face].material_index = label
+        else:
+            bm.faces[face][layer] = label
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+
+
+@dataclass(frozen=True)
 class SelectedElements:
     """Ids of what is selected in a mesh."""
 
