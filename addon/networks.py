@@ -208,11 +208,11 @@ def settle(topology, marked, chains, paths):
     while True:
         lines = [one if i in lost or new[i] is None else new[i] for i, one in enumerate(given)]
         moved = {i for i, line in enumerate(lines) if line is not given[i]}
-        region_of, unsettled = _claims(topology, before, given, lines)
-        if not moved or not unsettled:
+        region_of, suspects = _claims(topology, before, given, lines)
+        if not moved or suspects is None:
             break
-        stay = unsettled.keys() & moved or moved
-        lost |= {i: unsettled.get(i, -1) for i in stay}
+        named = next(found for found in (*suspects, dict.fromkeys(moved, -1)) if found.keys() & moved)
+        lost |= {i: named[i] for i in named.keys() & moved}
     return Settlement([i in moved for i in range(len(chains))], lost, before, region_of)
 
 
@@ -232,28 +232,38 @@ def _walls(topology, lines):
 
 
 def _claims(topology, before, given, lines):
-    """The region of each face by what lies beside the lines, and the lines where pieces and regions are not one to one.
+    """The region of each face by what lies beside the lines; and the suspects, None where all regions are as they were.
 
-    For each of these the region that has no room left, or -1.
+    Suspects are lines with the region that has no room left beside them, or -1: those that share edges, those that tear
+    what lies along them, and those round what is torn, joined or gone. Each list is for where the one before is empty.
     """
     pieces = regions(topology, _walls(topology, lines))
+    rows = _claimed(before, pieces, given, lines)
+    region_of = np.full(len(pieces), -1)
+    region_of[rows[:, 0]] = rows[:, 1]
+    bad_pieces = _repeated(rows[:, 0])
+    bad_regions = _repeated(rows[:, 1]) | set(np.setdiff1d(before, rows[:, 1]).tolist())
+    squeezed = _squeezed(before, given, lines)
+    if not (bad_pieces or bad_regions or squeezed):
+        return region_of[pieces], None
+    tearing = [i for i, line in enumerate(lines) if not line.one_on_each_side(pieces)]
+    around = [
+        i
+        for i, (line, old) in enumerate(zip(lines, given))
+        if line.touches(pieces, bad_pieces) or old.touches(before, bad_regions)
+    ]
+    return region_of[pieces], (squeezed, dict.fromkeys(tearing, -1), dict.fromkeys(around, -1))
+
+
+def _claimed(before, pieces, given, lines):
+    """All pairs of a piece and a region on the same side of the same line; a piece without lines is what it was."""
     rows = [
         np.column_stack([pieces[new], before[old] if new is old else np.full(len(new), before[old[0]])])
         for one, other in zip(given, lines)
         for old, new in ((one.left, other.left), (one.right, other.right))
     ]
     unseen = np.setdiff1d(pieces, np.concatenate([row[:, 0] for row in rows]))
-    rows = np.unique(np.concatenate([*rows, np.column_stack([unseen, before[unseen]])]), axis=0)
-    region_of = np.full(len(pieces), -1)
-    region_of[rows[:, 0]] = rows[:, 1]
-    bad_pieces = _repeated(rows[:, 0])
-    bad_regions = _repeated(rows[:, 1]) | set(np.setdiff1d(before, rows[:, 1]).tolist())
-    unsettled = {
-        i: -1
-        for i, (line, old) in enumerate(zip(lines, given))
-        if line.touches(pieces, bad_pieces) or old.touches(before, bad_regions)
-    }
-    return region_of[pieces], unsettled | _squeezed(before, given, lines)
+    return np.unique(np.concatenate([*rows, np.column_stack([unseen, before[unseen]])]), axis=0)
 
 
 def _squeezed(before, given, lines):

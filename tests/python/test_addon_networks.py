@@ -330,6 +330,16 @@ def test_a_line_along_the_border_stays_and_the_other_one_moves():
     assert (labels == [0, 0, 0, 1, 1, 1, 1, 2, 2, 2]).all()
 
 
+def test_only_the_line_that_tears_a_region_stays():
+    """The line at column 3 would go to the left border and back, which parts the first region; the other one moves."""
+    topology, labels, borders, chains = two_columns()
+    bent = np.array([3, 14, 13, 12, 11, 22, 23, 24, 25, 36, 47, 58])
+    paths = [bent if chain.vertices[0] % 11 == 3 else line_at(7) for chain in chains]
+    settlement = networks.settle(topology, borders, chains, paths)
+    assert settlement.taken == [bool(chain.vertices[0] % 11 != 3) for chain in chains]
+    assert (labels[settlement.after].reshape(5, 10) == [0, 0, 0, 1, 1, 1, 1, 2, 2, 2]).all()
+
+
 def test_an_end_does_not_slide_along_hidden_faces():
     """A line slides into the groove at column 8; where its lower end lies at hidden faces it goes there along them."""
     mesh = meshes.polygon_mesh(*open_sheet(8, 16))
