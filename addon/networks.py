@@ -14,8 +14,6 @@ import numpy as np
 
 from . import contours, native, parameters
 
-ENDS_AT_HIDDEN = "an end that would slide along hidden faces; show them to let it"
-
 
 @dataclass(frozen=True)
 class Topology:
@@ -200,11 +198,7 @@ def settle(topology, marked, chains, paths):
     before = regions(topology, marked)
     given = [_line(topology, chain.vertices, chain.closed) for chain in chains]
     new = [None if path is None else _line(topology, path, chain.closed) for chain, path in zip(chains, paths)]
-    lost = {
-        i: -1
-        for i, (path, line) in enumerate(zip(paths, new))
-        if path is not None and not (line and given[i].one_on_each_side(before))
-    }
+    lost = {i: -1 for i, path in enumerate(paths) if path is not None and new[i] is None}
     while True:
         lines = [one if i in lost or new[i] is None else new[i] for i, one in enumerate(given)]
         moved = {i for i, line in enumerate(lines) if line is not given[i]}
@@ -235,14 +229,14 @@ def _claims(topology, before, given, lines):
     """The region of each face by what lies beside the lines; and the suspects, None where all regions are as they were.
 
     Suspects are lines with the region that has no room left beside them, or -1: those that share edges, those that tear
-    what lies along them, and those round what is torn, joined or gone. Each list is for where the one before is empty.
+    what lies along them, and those round what is torn or joined. Each list is for where the one before is empty.
     """
     pieces = regions(topology, _walls(topology, lines))
     rows = _claimed(before, pieces, given, lines)
     region_of = np.full(len(pieces), -1)
     region_of[rows[:, 0]] = rows[:, 1]
     bad_pieces = _repeated(rows[:, 0])
-    bad_regions = _repeated(rows[:, 1]) | set(np.setdiff1d(before, rows[:, 1]).tolist())
+    bad_regions = _repeated(rows[:, 1])
     squeezed = _squeezed(before, given, lines)
     if not (bad_pieces or bad_regions or squeezed):
         return region_of[pieces], None
@@ -338,9 +332,6 @@ def optimize(make_surface, topology, marked, chosen=None, progress=None, **setti
         return Plan(chains, [None] * len(chains), {}, _all_stay(topology, marked, chains), topology)
     results, problems = _search(make_surface(), chains, _options(settings), progress)
     paths = [_new_path(chain, result) for chain, result in zip(chains, results)]
-    for i, path in enumerate(paths):
-        if path is not None and not _ends_allowed(topology, chains[i], path):
-            paths[i], problems[i] = None, ENDS_AT_HIDDEN
     return Plan(chains, results, problems, settle(topology, marked, chains, paths), topology)
 
 
@@ -357,15 +348,6 @@ def _new_path(chain, result):
     if result is None or not chain.movable or np.array_equal(result.vertices, chain.vertices):
         return None
     return result.vertices
-
-
-def _ends_allowed(topology, chain, path):
-    """The search lets every end slide that lies on a border and is not shared; one at hidden faces must not."""
-    return chain.closed or all(
-        path[i] == chain.vertices[i]
-        or (chain.vertices[i] not in chain.required and path[i] in topology.border_vertices)
-        for i in (0, -1)
-    )
 
 
 def _search(surface, chains, options, progress):

@@ -107,7 +107,7 @@ def network_summary(outcomes, noun):
     """One line for the status bar: how many moved, the ratios, and what was left out and why."""
     results = [outcome.result for outcome in outcomes if outcome.result is not None]
     left = [outcome for outcome in outcomes if outcome.result is None]
-    moved = sum(result.status != "unchanged" for result in results)
+    moved = sum(result.status == "improved" for result in results)
     sentences = []
     if moved:
         sentences = [f"{moved} of {len(outcomes)} {noun} moved", _ratios(results)]

@@ -331,44 +331,112 @@ def test_a_line_along_the_border_stays_and_the_other_one_moves():
 
 
 def test_only_the_line_that_tears_a_region_stays():
-    """The line at column 3 would go to the left border and back, which parts the first region; the other one moves."""
+    """The line at column 3 would touch the border beside it, which cuts a corner off the middle region."""
     topology, labels, borders, chains = two_columns()
-    bent = np.array([3, 14, 13, 12, 11, 22, 23, 24, 25, 36, 47, 58])
+    bent = np.array([3, 14, 25, 26, 15, 4, 5, 16, 27, 38, 49, 60])
     paths = [bent if chain.vertices[0] % 11 == 3 else line_at(7) for chain in chains]
     settlement = networks.settle(topology, borders, chains, paths)
     assert settlement.taken == [bool(chain.vertices[0] % 11 != 3) for chain in chains]
     assert (labels[settlement.after].reshape(5, 10) == [0, 0, 0, 1, 1, 1, 1, 2, 2, 2]).all()
 
 
-def test_an_end_does_not_slide_along_hidden_faces():
-    """A line slides into the groove at column 8; where its lower end lies at hidden faces it goes there along them."""
-    mesh = meshes.polygon_mesh(*open_sheet(8, 16))
-    labels = (np.arange(7 * 15) % 15 >= 6).astype(int)
-    for hidden in ([], range(15)):
-        topology = topology_of(mesh, hidden)
-        plan = optimize(mesh, topology, networks.label_borders(topology, labels), width=4, anchor=0.0)
-        ends = [v for v, count in Counter(plan.new_edges().ravel().tolist()).items() if count == 1]
-        assert sorted(ends) == ([6 + 16, 8 + 7 * 16] if hidden else [8, 8 + 7 * 16])
+def test_a_line_that_would_join_regions_stays():
+    """The line at column 3 would end on the sheet."""
+    topology, labels, borders, chains = two_columns()
+    paths = [line_at(3)[:4] if chain.vertices[0] % 11 == 3 else None for chain in chains]
+    settlement = networks.settle(topology, borders, chains, paths)
+    assert not any(settlement.taken)
+    assert list(settlement.lost.values()) == [-1]
+    assert (labels[settlement.after] == labels).all()
 
 
-def test_what_cannot_be_searched_is_named_and_the_others_move(monkeypatch):
+def taken_ends(plan):
+    """The vertices at the ends of what moves to new places."""
+    return sorted(v for v, count in Counter(plan.new_edges().ravel().tolist()).items() if count == 1)
+
+
+@pytest.mark.parametrize(
+    ("faces", "hidden", "end"),
+    {
+        "nothing hidden": ([], [], 8),
+        "at hidden faces": ([], range(15), 6 + 16),
+        # The face left of its first edge is split, and the half that touches the end alone is hidden.
+        "on the border at a hidden face": ([(5, 6, 21), (6, 22, 21)], [105], 6),
+    }.values(),
+)
+def test_an_end_slides_unless_hidden_faces_are_beside_it(faces, hidden, end):
+    """The line at column 6 goes into the groove at column 8, from its lower end on or from where it is held."""
+    positions, sheet = open_sheet(8, 16)
+    sheet = [tuple(face) for face in np.asarray(sheet).tolist()]
+    places = [face for face in sheet if not faces or face[0] != 5 or set(face) != {5, 6, 21, 22}]
+    mesh = meshes.polygon_mesh(positions, places + faces)
+    hidden = [len(places) if faces else face for face in hidden]
+    labels = (centres(mesh)[:, 0] >= 6).astype(int)
+    topology = topology_of(mesh, hidden)
+    plan = optimize(mesh, topology, networks.label_borders(topology, labels), width=4, anchor=0.0)
+    assert plan.changed
+    assert taken_ends(plan)[0] == end
+
+
+def three_strips():
+    """A sheet with a groove at column 8, parted by straight lines at columns 6 and 12."""
     mesh = meshes.polygon_mesh(*open_sheet(8, 16))
     column = np.arange(7 * 15) % 15
-    labels = (column >= 6).astype(int) + (column >= 12)
     topology = topology_of(mesh)
-    module = networks.native.module()
+    return mesh, topology, networks.label_borders(topology, (column >= 6).astype(int) + (column >= 12))
+
+
+def test_only_chosen_chains_move():
+    """Both would: the line at column 12 is bent by hand before."""
+    mesh, topology, marked = three_strips()
+    bent = np.array([12, 28, 29, 45, 44, 60, 76, 92, 108, 124])
+    straight = topology.find(contours.contour_edges(np.arange(8) * 16 + 12, closed=False))[0]
+    marked[straight] = False
+    marked[topology.find(contours.contour_edges(bent, closed=False))[0]] = True
+    column = topology.edges.min(axis=1) % 16
+    moved = []
+    for chosen in (marked, marked & (column < 9), marked & (column > 9)):
+        plan = optimize(mesh, topology, marked, chosen=chosen, width=4)
+        moved.append(sorted({int(v % 16) // 9 for v in plan.old_edges().ravel()}))
+    assert moved == [[0, 1], [0], [1]]
+
+
+def test_what_cannot_be_searched_is_named_and_a_barrier_to_the_others(monkeypatch):
+    mesh, topology, marked = three_strips()
+    module, barriers = networks.native.module(), []
 
     def refusing(surface, contours, **more):
         for i, contour in enumerate(contours):
             if 12 in contour % 16:
                 raise ValueError(f"contour {i}: it is not to my liking")
+        barriers.append(more["barriers"])
         return module.optimize_all(surface, contours, **more)
 
     fake = SimpleNamespace(optimize_all=refusing, measure=module.measure, Options=module.Options)
     monkeypatch.setattr(networks.native, "module", lambda: fake)
-    plan = optimize(mesh, topology, networks.label_borders(topology, labels), width=4)
+    plan = optimize(mesh, topology, marked, width=4)
     assert list(plan.problems.values()) == ["it is not to my liking"]
     assert [bool(12 in chain.vertices % 16) for chain in plan.chains] == [not taken for taken in plan.settlement.taken]
+    (barriers,) = barriers
+    assert sorted(as_pairs(barriers)) == [(12 + 16 * y, 28 + 16 * y) for y in range(7)]
+
+
+def test_contours_at_vertices_that_are_not_manifold_are_named():
+    """Two tetrahedra that share a vertex, a seam through it; and a sheet whose seam moves all the same."""
+    positions, sheet = open_sheet(8, 16)
+    base = len(positions)
+    corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (-1, 0, 0), (0, -1, 0), (0, 0, -1)]
+    solids = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3), (0, 4, 5), (0, 6, 4), (0, 5, 6), (4, 6, 5)]
+    faces = [tuple(face) for face in np.asarray(sheet).tolist()]
+    faces += [tuple(base + v for v in face) for face in solids]
+    mesh = meshes.polygon_mesh(np.concatenate([positions, 40.0 + np.array(corners)]), faces)
+    topology = topology_of(mesh)
+    marked = np.zeros(len(topology.edges), dtype=bool)
+    marked[topology.find([(base + 1, base), (base, base + 4)])[0]] = True
+    marked[topology.find(contours.contour_edges(np.arange(8) * 16 + 6, closed=False))[0]] = True
+    plan = optimize(mesh, topology, marked, width=4)
+    assert ["non-manifold" in problem for problem in plan.problems.values()] == [True]
+    assert sum(plan.settlement.taken) == 1
 
 
 def test_a_network_of_single_edges_needs_no_surface():
