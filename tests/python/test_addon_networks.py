@@ -325,8 +325,9 @@ def test_lines_that_change_places_stay():
 
 
 def test_a_line_along_the_border_stays_and_the_other_one_moves():
-    taken, _, labels = settle({3: 0, 6: 7})
+    taken, lost, labels = settle({3: 0, 6: 7})
     assert taken == {3: False, 6: True}
+    assert lost == {0: -1}
     assert (labels == [0, 0, 0, 1, 1, 1, 1, 2, 2, 2]).all()
 
 
@@ -384,6 +385,14 @@ def three_strips():
     column = np.arange(7 * 15) % 15
     topology = topology_of(mesh)
     return mesh, topology, networks.label_borders(topology, (column >= 6).astype(int) + (column >= 12))
+
+
+def test_seams_along_the_border_of_the_mesh_change_nothing():
+    mesh, topology, marked = three_strips()
+    plan = optimize(mesh, topology, marked, width=4)
+    bordered = optimize(mesh, topology, marked | ~topology.inner, width=4)
+    assert plan.changed
+    assert plan.new_edges().tolist() == bordered.new_edges().tolist()
 
 
 def test_only_chosen_chains_move():
