@@ -13,17 +13,31 @@ from . import mesh_access, native, parameters
 _kept = {}  # mesh name -> (MeshArrays, Surface), of the meshes of the last call
 
 
-def optimize_contour(obj, vertices, **settings):
-    """The minimum ratio contour near a closed one, given by its vertices in order; the mesh stays as it is."""
+def optimize_contour(obj, vertices, closed=True, **settings):
+    """The minimum ratio contour near a given one, given by its vertices in order; the mesh stays as it is."""
     mesh_access.synchronize(obj)
-    return optimize_on(surface_of(obj), vertices, **settings)
+    return optimize_on(surface_of(obj), vertices, closed=closed, **settings)
 
 
-def optimize_on(surface, vertices, **settings):
+def optimize_on(surface, vertices, closed=True, **settings):
     """The same on a native surface."""
+    return optimize_all_on(surface, [vertices], closed=closed, **settings)[0]
+
+
+def optimize_all_on(surface, contours, closed=True, **settings):
+    """Several contours of a native surface together, which never cross; `closed` is one for all or one for each."""
     mrc = native.module()
     options = mrc.Options(**parameters.native_options(**settings))
-    return mrc.optimize(surface, vertices, closed=True, options=options)
+    return mrc.optimize_all(surface, contours, closed=closed, options=options)
+
+
+def problem_on(surface, vertices, closed=True):
+    """Why these vertices are no contour that could be optimized, in words; empty where they are one."""
+    try:
+        native.module().measure(surface, vertices, closed=closed)
+    except ValueError as error:
+        return str(error)
+    return ""
 
 
 def surface_of(obj, beside=()):

@@ -49,6 +49,20 @@ def contour_edges(vertices, closed=True):
     return pairs if closed else pairs[:-1]
 
 
+def along(loop, directed_edges):
+    """A closed loop in the direction of the (n, 2) edges that it was sorted from, going by its first."""
+    first, second = loop[:2]
+    runs_along = np.any((directed_edges[:, 0] == first) & (directed_edges[:, 1] == second))
+    return loop if runs_along else np.roll(loop[::-1], 1)
+
+
+def common_edges(edges, others):
+    """Those of the (n, 2) edges that are among the others, in either direction."""
+    edges, others = (np.asarray(pairs).reshape(-1, 2) for pairs in (edges, others))
+    known = {frozenset(pair) for pair in others.tolist()}
+    return edges[[frozenset(pair) in known for pair in edges.tolist()]]
+
+
 def region_border(face_offsets, corner_edges, selected, hidden, edge_count):
     """The edges between a selected face and one that is visible and not selected.
 

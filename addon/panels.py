@@ -47,8 +47,11 @@ def draw_settings(layout, settings):
     layout.use_property_decorate = False
     layout.prop(settings, "output")
     row = layout.row()
-    row.enabled = settings.output != "SELECT"
+    row.enabled = settings.output in ("SEAM", "SHARP")
     row.prop(settings, "keep_old")
+    row = layout.row()
+    row.enabled = settings.output in ("RIP", "SEPARATE")
+    row.prop(settings, "fill_holes")
     row = layout.row()
     row.enabled = not settings.whole_surface
     row.prop(settings, "width")
@@ -64,6 +67,9 @@ def draw_more_settings(layout, settings):
     layout.use_property_decorate = False
     for name in MORE:
         layout.prop(settings, name)
+    row = layout.row()
+    row.enabled = settings.refinement > 0
+    row.prop(settings, "merge")
 
 
 class VIEW3D_PT_minimum_ratio_contours(bpy.types.Panel):

@@ -37,7 +37,7 @@ def test_nothing_selected(mode, output, last, capfd):
     obj = grooved_cylinder()
     edit(obj, mode=mode)
     cancelled(obj, output=output)
-    assert last.message.startswith("Nothing to optimize: select a closed loop")
+    assert last.message.startswith("Nothing to optimize: select closed loops or open chains")
     assert last.message in capfd.readouterr().out
 
 
@@ -51,13 +51,16 @@ def test_one_vertex_selected(last):
     assert last.message.startswith("Nothing to optimize")
 
 
-def test_an_open_chain(last):
+@pytest.mark.parametrize("output", ["SELECT", "SEAM", "SHARP", "CUT", "RIP", "SEPARATE"])
+def test_a_chain_of_one_edge(output, last):
     obj = grooved_cylinder()
     edit(obj)
-    select(obj, pairs(ring(5)[:9], closed=False))
-    cancelled(obj, output="SEAM")
-    ends = f"from vertex {ring(5)[0]} to {ring(5)[8]}"
-    assert last.message == f"Left as it is: an open chain {ends}, only closed loops can be optimized"
+    select(obj, pairs(ring(5)[:2], closed=False))
+    cancelled(obj, output=output)
+    ends = f"{ring(5)[0]}-{ring(5)[1]}"
+    assert last.message == f"Left as it is: a single edge, {ends}, has nothing to move between its ends; " + (
+        "select a longer chain"
+    )
 
 
 def test_everything_selected(last):
@@ -110,13 +113,14 @@ def test_a_mesh_without_faces(last):
     edit(obj)
     bpy.ops.mesh.select_all(action="SELECT")
     cancelled(obj)
-    assert "open chain" in last.message
+    assert "an open chain with loose edges that no face uses (0-1)" in last.message
 
 
-def test_an_empty_mesh():
+def test_an_empty_mesh(last):
     obj = mesh_object("Empty", [])
     edit(obj)
     cancelled(obj)
+    assert last.message.startswith("Nothing to optimize")
 
 
 def without_library(monkeypatch):

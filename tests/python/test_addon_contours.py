@@ -96,3 +96,18 @@ def test_the_border_of_selected_faces():
 
 def test_hidden_faces_are_as_if_they_were_not_there():
     assert grid_border([4], hidden=[5]) == [(5, 6), (5, 9), (9, 10)]
+
+
+def test_a_loop_takes_the_direction_of_its_edges(rng):
+    for _ in range(20):
+        vertices = rng.choice(100, 9, replace=False)
+        edges = rng.permutation(loop_edges(vertices))
+        (loop,) = contours.sort_edges(edges).loops
+        turned = contours.along(loop, edges)
+        assert {tuple(pair) for pair in loop_edges(turned).tolist()} == {tuple(pair) for pair in edges.tolist()}
+
+
+def test_common_edges_in_either_direction():
+    edges = np.array([[1, 2], [3, 2], [3, 4]])
+    assert contours.common_edges(edges, [[2, 3], [9, 4]]).tolist() == [[3, 2]]
+    assert contours.common_edges(edges, np.empty((0, 2))).tolist() == []

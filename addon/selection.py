@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From what is selected in Edit Mode to an outcome for each of its contours; changes nothing."""
+
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from . import api, contours, mesh_access, report
+
+
+@dataclass
+class Part:
+    """One object's share of the selection."""
+
+    obj: bpy.types.Object
+    outcomes: list
+    warnings: list
+
+    def done(self):
+        """The contours that are output."""
+        return [outcome for outcome in self.outcomes if outcome.result is not None and not outcome.problem]
+
+    def old_edges(self):
+        """The edges of the contours that have a result, as selected."""
+        edge_lists = [outcome.edges for outcome in self.done()]
+        return np.concatenate(edge_lists) if edge_lists else np.empty((0, 2), dtype=np.int32)
+
+
+def optimize_selection(objects, face_mode, settings):
+    """A Part for each object, with an outcome for each connected piece of its selection."""
+    return [_optimize_part(obj, objects, face_mode, settings) for obj in objects]
+
+
+def _optimize_part(obj, objects, face_mode, settings):
+    mesh_access.synchronize(obj)
+    selection = mesh_access.read_selection(obj, face_mode)
+    pieces = contours.sort_edges(selection.edges)
+    given = [report.Outcome.of(obj.name, contours.along(loop, selection.edges), True) for loop in pieces.loops]
+    given += [report.Outcome.of(obj.name, chain, False) for chain in pieces.chains]
+    branching = [
+        report.Outcome(obj.name, edges, problem=report.branching(contours.branch_vertices(edges)))
+        for edges in pieces.branching
+    ]
+    for outcome in given:
+        outcome.problem = _problem(outcome, selection.loose)
+    _optimize(obj, objects, [outcome for outcome in given if not outcome.problem], settings)
+    part = Part(obj, given + branching, [])
+    if part.done():
+        part.warnings = _warnings(obj)
+    return part
+
+
+def _warnings(obj):
+    """What the user should know about how the object is measured."""
+    warnings = []
+    if mesh_access.is_unevenly_scaled(obj):
+        warnings.append(report.uneven_scale(obj.name))
+    if mesh_access.is_inside_out(obj):
+        warnings.append(report.inside_out(obj.name))
+    return warnings
+
+
+def _problem(outcome, loose_edges):
+    """Why a contour is not handed to the search at all; empty where it is."""
+    loose = contours.common_edges(outcome.edges, loose_edges)
+    if len(loose):
+        return report.loose(loose, outcome.closed)
+    if len(outcome.edges) == 1:
+        return report.single_edge(outcome.vertices)
+    return ""
+
+
+def _optimize(obj, objects, outcomes, settings):
+    """Gives each outcome its result, or the problem that keeps it from one."""
+    if not outcomes:
+        return
+    try:
+        _fill_in(api.surface_of(obj, beside=objects), outcomes, settings)
+    except ValueError as error:
+        for outcome in outcomes:
+            outcome.problem = str(error)
+
+
+def _fill_in(surface, outcomes, settings):
+    """Optimizes all together. Where one of them cannot be a contour, that one is left out and the others go on."""
+    vertices, closed = [outcome.vertices for outcome in outcomes], [outcome.closed for outcome in outcomes]
+    try:
+        results = api.optimize_all_on(surface, vertices, closed=closed, **settings)
+    except ValueError:
+        for outcome in outcomes:
+            outcome.problem = api.problem_on(surface, outcome.vertices, closed=outcome.closed)
+        sound = [outcome for outcome in outcomes if not outcome.problem]
+        if len(sound) == len(outcomes):
+            raise
+        if sound:
+            _fill_in(surface, sound, settings)
+        return
+    for outcome, result in zip(outcomes, results):
+        outcome.result = result
