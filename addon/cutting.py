@@ -62,7 +62,7 @@ class _Knife:
         vertices, bends = [self._vertex(path[0])], []
         for station, following in pairwise(path):
             if following.place in self.inner:
-                bends.append(self.inner[following.place])
+                bends.append(following)
                 continue
             vertices += self._connect(vertices[-1], self._vertex(following), bends, station.face)
             bends = []
@@ -104,18 +104,33 @@ class _Knife:
 
     def _connect(self, start, end, bends, face_id):
         """The vertices after `start` up to `end`, along edges that are there or are cut now."""
-        bends = _real_bends(start.co, bends, end.co)
+        bends = self._real_bends(start.co, bends, end.co)
+        points = [self.inner[bend.place] for bend in bends]
         if not bends and self.bm.edges.get((start, end)):
             return [end]
         face = self._piece(face_id, start, end)
         sides = _sides(face, start, end)
         for side in sides:
-            if len(side) == 2 or _is_flat([vertex.co for vertex in side] + bends[::-1]):
+            if len(side) == 2 or _is_flat([vertex.co for vertex in side] + points[::-1]):
                 return side[1:]  # a cut would leave a piece without area: walk along the face's side instead
-        new, corner = bmesh.utils.face_split(face, start, end, coords=bends)
+        new, corner = bmesh.utils.face_split(face, start, end, coords=points)
         new.select_set(face.select)  # a cut selected face stays selected whole
         self.pieces[face_id].append(new)
-        return _along(corner, start, end)
+        vertices = _along(corner, start, end)
+        for vertex, bend in zip(vertices, bends):  # a diagonal knows better than the whole polygon, which may be bent
+            vertex.copy_from_vert_interp((self.given[bend.a], self.given[bend.b]), bend.t)
+        return vertices
+
+    def _real_bends(self, start, bends, end):
+        """Without those that lie on the straight line between their neighbours."""
+        points = [self.inner[bend.place] for bend in bends]
+        kept, last = [], start
+        for bend, point, following in zip(bends, points, [*points[1:], end]):
+            on_line = intersect_point_line(point, last, following)[0]
+            if (point - on_line).length > _STRAIGHT * (following - last).length:
+                kept.append(bend)
+                last = point
+        return kept
 
     def _piece(self, face_id, start, end):
         """The piece of a face that has both vertices."""
@@ -137,16 +152,6 @@ def _leaves_edges(bm, paths, closed):
             if bm.edges.get((bm.verts[station.a], bm.verts[following.a])) is None:
                 return True
     return False
-
-
-def _real_bends(start, bends, end):
-    """Without those that lie on the straight line between their neighbours."""
-    kept = [start]
-    for bend, following in zip(bends, [*bends[1:], end]):
-        on_line = intersect_point_line(bend, kept[-1], following)[0]
-        if (bend - on_line).length > _STRAIGHT * (following - kept[-1]).length:
-            kept.append(bend)
-    return kept[1:]
 
 
 def _sides(face, start, end):

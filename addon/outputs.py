@@ -92,13 +92,16 @@ class _Cut:
     def write(self):
         if self.wish.output in FLAGS:
             _set_flag(self.edges, self.wish.output, True)
-        if self.wish.face_mode:
-            self._move_selected_faces()
+        moved = self._move_selected_faces() if self.wish.face_mode else set()
         if self.wish.output == "SEPARATE":
             self.seeds = self._part_seeds()
         if self.wish.output in PARTING:
             self._rip()
-        if not self.wish.face_mode:
+        if self.wish.face_mode:
+            _tidy_selection(
+                moved | {face for edge in self.edges for vertex in edge.verts for face in vertex.link_faces}
+            )
+        else:
             for edge in self.edges:
                 edge.select_set(True)
         self.bm.select_flush_mode()
@@ -118,7 +121,7 @@ class _Cut:
                 edge.select_set(False)
 
     def _move_selected_faces(self):
-        """The selected part lies to the left of its contours: what they passed over changes sides."""
+        """The selected part lies to the left of its contours: what they passed over changes sides, and is returned."""
         walls = set(self.edges)
         left, right = zip(*(sides.beside(self.bm, *contour) for contour in self.contours))
         gained = sides.reach(sum(left, []), walls, lambda face: not (face.select or face.hide))
@@ -126,6 +129,7 @@ class _Cut:
         for faces, value in ((lost, False), (gained, True)):
             for face in faces:
                 face.select_set(value)
+        return gained | lost
 
     def _part_seeds(self):
         """One face of each part that is cut off; contours round one part share it."""
@@ -143,6 +147,16 @@ class _Cut:
         self.edges = bmesh.ops.split_edges(self.bm, edges=self.edges)["edges"]
         if self.wish.fill_holes:
             bmesh.ops.holes_fill(self.bm, edges=self.edges, sides=0)
+
+
+def _tidy_selection(faces):
+    """In face mode edges and vertices are selected where a face of theirs is; cuts and rips leave others behind."""
+    for element in {element for face in faces for element in (*face.edges, *face.verts)}:
+        if not any(face.select for face in element.link_faces):
+            element.select_set(False)
+    for face in faces:
+        if face.select:
+            face.select_set(True)
 
 
 def _wanted_part(bm, ids, closed, walls, smaller, wish):
