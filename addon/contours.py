@@ -49,11 +49,12 @@ def contour_edges(vertices, closed=True):
     return pairs if closed else pairs[:-1]
 
 
-def along(loop, directed_edges):
-    """A closed loop in the direction of the (n, 2) edges that it was sorted from, going by its first."""
-    first, second = loop[:2]
-    runs_along = np.any((directed_edges[:, 0] == first) & (directed_edges[:, 1] == second))
-    return loop if runs_along else np.roll(loop[::-1], 1)
+def along(vertices, directed_edges, closed=True):
+    """A loop or chain in the direction of the (n, 2) edges that it was sorted from, going by its first."""
+    first, second = vertices[:2]
+    if np.any((directed_edges[:, 0] == first) & (directed_edges[:, 1] == second)):
+        return vertices
+    return np.roll(vertices[::-1], 1) if closed else vertices[::-1]
 
 
 def common_edges(edges, others):

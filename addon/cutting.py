@@ -9,7 +9,7 @@ import numpy as np
 from mathutils import Vector
 from mathutils.geometry import intersect_point_line
 
-from .merging import merge_stations, stations
+from .merging import merge_stations, stations, without_stops
 
 _FLAT = 1e-6  # of the perimeter squared: a piece of a face with less area than this has none
 _STRAIGHT = 1e-5  # of a segment: a bend smaller than this is none
@@ -25,13 +25,19 @@ def cut_contours(bm, contours, merge=0.0):
     leaves no slivers.
     """
     closed = [contour.closed for contour in contours]
-    paths = merge_stations([stations(contour) for contour in contours], closed, merge)
-    if all(station.is_vertex for path in paths for station in path) and not _leaves_edges(bm, paths, closed):
+    paths = [without_stops(stations(contour), contour.closed) for contour in contours]
+    paths = merge_stations(paths, closed, merge, _edges_of_hidden_faces(bm, paths))
+    if not _leaves_edges(bm, paths, closed):
         return [np.array([station.a for station in path]) for path in paths]
     knife = _Knife(bm, paths)
     cut = [knife.cut(path, is_closed) for path, is_closed in zip(paths, closed)]
     knife.finish()
     return [np.array([vertex.index for vertex in vertices]) for vertices in cut]
+
+
+def cuts_faces(bm, contours):
+    """Whether one of the contours leaves the edges of the mesh."""
+    return _leaves_edges(bm, [stations(contour) for contour in contours], [contour.closed for contour in contours])
 
 
 def faces_cut(contours):
@@ -144,14 +150,21 @@ def _pair(vertices):
     return tuple(sorted(vertex.index for vertex in vertices))
 
 
-def _leaves_edges(bm, paths, closed):
-    """Whether paths through vertices alone cross a face somewhere."""
+def _edges_of_hidden_faces(bm, paths):
+    """The edges crossed or touched that a hidden face shares, which must stay as it is."""
     bm.verts.ensure_lookup_table()
-    for path, is_closed in zip(paths, closed):
-        for station, following in pairwise(path + path[:1] * is_closed):
-            if bm.edges.get((bm.verts[station.a], bm.verts[following.a])) is None:
-                return True
-    return False
+    touched = {(station.a, station.b) for path in paths for station in path if not station.is_vertex}
+    edges = {pair: bm.edges.get((bm.verts[pair[0]], bm.verts[pair[1]])) for pair in touched}
+    return {pair for pair, edge in edges.items() if edge and any(face.hide for face in edge.link_faces)}
+
+
+def _leaves_edges(bm, paths, closed):
+    """Whether one of the paths crosses a face."""
+    if not all(station.is_vertex for path in paths for station in path):
+        return True
+    bm.verts.ensure_lookup_table()
+    ids = [[station.a for station in path + path[:1] * is_closed] for path, is_closed in zip(paths, closed)]
+    return any(bm.edges.get((bm.verts[a], bm.verts[b])) is None for path in ids for a, b in pairwise(path))
 
 
 def _sides(face, start, end):

@@ -42,8 +42,19 @@ def stations(contour):
     return [_station(a, b, t, faces[min(i, len(faces) - 1)]) for i, ((a, b), t) in enumerate(points)]
 
 
-def merge_stations(contours, closed, fraction):
-    """Moves stations closer to a vertex than this fraction of their edge onto it, contour by contour in place.
+def without_stops(contour, closed):
+    """Leaves out what lies between two stations on the same edge: running along an edge cuts nothing."""
+    before, after = contour[-1:] + contour[:-1], contour[1:] + contour[:1]
+    ends = () if closed else (contour[0], contour[-1])
+    return [
+        station
+        for previous, station, following in zip(before, contour, after)
+        if station in ends or not (_on_edge_of(previous, station) and _on_edge_of(following, station))
+    ]
+
+
+def merge_stations(contours, closed, fraction, kept_whole=frozenset()):
+    """Moves stations closer to a vertex than this fraction of their edge onto it; on edges to be kept whole, all.
 
     Only where they follow one another along one contour, which then runs through the vertex: so no contour comes to
     touch itself or another, and none loses its last corners.
@@ -51,7 +62,8 @@ def merge_stations(contours, closed, fraction):
     near = defaultdict(lambda: defaultdict(list))  # vertex -> contour -> places of its stations there
     for c, contour in enumerate(contours):
         for i, station in enumerate(contour):
-            if min(station.t, 1.0 - station.t) <= max(fraction, NEVER_APART):
+            most = 0.5 if (station.a, station.b) in kept_whole else max(fraction, NEVER_APART)
+            if min(station.t, 1.0 - station.t) <= most:
                 near[station.nearest_vertex()][c].append(i)
     moved = [list(contour) for contour in contours]
     for vertex, visits in near.items():
@@ -68,6 +80,10 @@ def _station(a, b, t, face):
     if t >= 1.0:
         return Station(b, b, 0.0, face)
     return Station(a, b, t, face) if a < b else Station(b, a, 1.0 - t, face)
+
+
+def _on_edge_of(station, other):
+    return not other.is_vertex and {station.a, station.b} <= {other.a, other.b}
 
 
 def _may_merge(vertex, visits, contours, closed):

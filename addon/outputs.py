@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import bmesh
 import bpy
-import numpy as np
 
 from . import custom_normals, cutting, mesh_access, report, sides
 
@@ -81,12 +80,12 @@ class _Cut:
         self.bm = bmesh.from_edit_mesh(self.mesh)
         done = part.done()
         results = [outcome.result for outcome in done]
-        self.refined = any(np.any(result.vertices < 0) for result in results)
-        self.normals_kept = self._changes_faces() and custom_normals.keep(part.obj, self.bm, cutting.faces_cut(results))
+        self.changes_faces = wish.output in PARTING or cutting.cuts_faces(self.bm, results)
+        self.normals_kept = self.changes_faces and custom_normals.keep(part.obj, self.bm, cutting.faces_cut(results))
         self._forget_old(part.old_edges())
         ids = cutting.cut_contours(self.bm, results, wish.merge)
         self.contours = [(vertices, result.closed) for vertices, result in zip(ids, results)]
-        self.edges = [edge for contour in self.contours for edge in sides.edges_along(self.bm, *contour)]
+        self.edges = self._edges_along(self.contours)
         self.seeds = []  # a face of each part to separate
 
     def write(self):
@@ -106,10 +105,10 @@ class _Cut:
                 edge.select_set(True)
         self.bm.select_flush_mode()
         self.bm.select_history.validate()
-        bmesh.update_edit_mesh(self.mesh, loop_triangles=self._changes_faces(), destructive=self._changes_faces())
+        bmesh.update_edit_mesh(self.mesh, loop_triangles=self.changes_faces, destructive=self.changes_faces)
 
-    def _changes_faces(self):
-        return self.refined or self.wish.output in PARTING
+    def _edges_along(self, chains):
+        return [edge for chain in chains for edge in sides.edges_along(self.bm, *chain)]
 
     def _forget_old(self, old_edges):
         """Before the cut: afterwards the given edges may be in pieces."""
@@ -143,10 +142,13 @@ class _Cut:
         return seeds
 
     def _rip(self):
-        """The edges of both rims are the contours' from now on."""
-        self.edges = bmesh.ops.split_edges(self.bm, edges=self.edges)["edges"]
+        """The edges of both rims are the contours' from now on. A slit has no hole to fill."""
+        loops = self._edges_along(contour for contour in self.contours if contour[1])
+        slits = self._edges_along(contour for contour in self.contours if not contour[1])
+        rims = bmesh.ops.split_edges(self.bm, edges=loops)["edges"]
         if self.wish.fill_holes:
-            bmesh.ops.holes_fill(self.bm, edges=self.edges, sides=0)
+            bmesh.ops.holes_fill(self.bm, edges=rims, sides=0)
+        self.edges = rims + bmesh.ops.split_edges(self.bm, edges=slits)["edges"]
 
 
 def _tidy_selection(faces):

@@ -36,8 +36,10 @@ def _optimize_part(obj, objects, face_mode, settings):
     mesh_access.synchronize(obj)
     selection = mesh_access.read_selection(obj, face_mode)
     pieces = contours.sort_edges(selection.edges)
-    given = [report.Outcome.of(obj.name, contours.along(loop, selection.edges), True) for loop in pieces.loops]
-    given += [report.Outcome.of(obj.name, chain, False) for chain in pieces.chains]
+    given = [(loop, True) for loop in pieces.loops] + [(chain, False) for chain in pieces.chains]
+    if face_mode:  # the part to the left
+        given = [(contours.along(vertices, selection.edges, closed), closed) for vertices, closed in given]
+    given = [report.Outcome.of(obj.name, vertices, closed) for vertices, closed in given]
     branching = [
         report.Outcome(obj.name, edges, problem=report.branching(contours.branch_vertices(edges)))
         for edges in pieces.branching

@@ -9,10 +9,10 @@ import numpy as np
 from made_meshes import mesh_object
 
 
-def rough_sphere(seed=0, dissolve=0.4, bumps=0.2, name="Rough"):
+def rough_sphere(seed=0, dissolve=0.4, bumps=0.2, name="Rough", subdivisions=3):
     """A bumpy sphere of triangles, some of which are joined to polygons of many corners."""
     bm = bmesh.new()
-    bmesh.ops.create_icosphere(bm, subdivisions=3, radius=1.0)
+    bmesh.ops.create_icosphere(bm, subdivisions=subdivisions, radius=1.0)
     rng = np.random.default_rng(seed)
     for vertex in bm.verts:
         vertex.co *= 1 + bumps * np.sin(4 * vertex.co.z + vertex.co.x)

@@ -107,6 +107,14 @@ def test_a_loop_takes_the_direction_of_its_edges(rng):
         assert {tuple(pair) for pair in loop_edges(turned).tolist()} == {tuple(pair) for pair in edges.tolist()}
 
 
+def test_a_chain_takes_the_direction_of_its_edges(rng):
+    for _ in range(20):
+        vertices = rng.choice(100, 9, replace=False)
+        edges = rng.permutation(loop_edges(vertices)[:-1])
+        (chain,) = contours.sort_edges(edges).chains
+        np.testing.assert_array_equal(contours.along(chain, edges, closed=False), vertices)
+
+
 def test_common_edges_in_either_direction():
     edges = np.array([[1, 2], [3, 2], [3, 4]])
     assert contours.common_edges(edges, [[2, 3], [9, 4]]).tolist() == [[3, 2]]
