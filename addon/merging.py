@@ -62,8 +62,9 @@ def merge_stations(contours, closed, fraction, kept_whole=frozenset()):
     near = defaultdict(lambda: defaultdict(list))  # vertex -> contour -> places of its stations there
     for c, contour in enumerate(contours):
         for i, station in enumerate(contour):
-            most = 0.5 if (station.a, station.b) in kept_whole else max(fraction, NEVER_APART)
-            if min(station.t, 1.0 - station.t) <= most:
+            if (station.a, station.b) in kept_whole:
+                near[_end_beside(contour, i)][c].append(i)
+            elif min(station.t, 1.0 - station.t) <= max(fraction, NEVER_APART):
                 near[station.nearest_vertex()][c].append(i)
     moved = [list(contour) for contour in contours]
     for vertex, visits in near.items():
@@ -84,6 +85,14 @@ def _station(a, b, t, face):
 
 def _on_edge_of(station, other):
     return not other.is_vertex and {station.a, station.b} <= {other.a, other.b}
+
+
+def _end_beside(contour, i):
+    """The end of a station's edge that the contour passes next to it, else the nearer one."""
+    station = contour[i]
+    beside = {other.a for other in (contour[i - 1], contour[(i + 1) % len(contour)]) if other.is_vertex}
+    ends = beside & {station.a, station.b}
+    return min(ends) if ends else station.nearest_vertex()
 
 
 def _may_merge(vertex, visits, contours, closed):

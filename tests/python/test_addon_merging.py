@@ -86,3 +86,21 @@ def test_a_small_loop_does_not_vanish():
 def test_repeated_points_are_dropped():
     assert merged(contour(FAR[0], *FAR, FAR[2])) == [FAR]
     assert merged(contour(*FAR, FAR[2]), closed=False) == [FAR]
+
+
+def test_no_point_stays_on_an_edge_to_be_kept_whole():
+    """It goes to the end that the contour passes next to, even where the other end is nearer."""
+    near, far = contour((8, 8, 0.0), (8, 9, 0.9), *FAR), contour((8, 9, 0.9), *FAR)
+    for given, vertex in ((near, 8), (far, 9)):
+        (result,) = merging.merge_stations([given], [True], 0.0, {(8, 9)})
+        assert places(result) == [(vertex, vertex, 0.0), *FAR]
+
+
+def test_running_along_an_edge_has_no_stops():
+    def along(*points, closed=True):
+        return places(merging.without_stops(contour(*points), closed))
+
+    assert along((7, 7, 0), (7, 8, 0.3), (7, 8, 0.6), (8, 8, 0), *FAR) == [(7, 7, 0.0), (8, 8, 0.0), *FAR]
+    assert along((7, 8, 0.3), (7, 8, 0.6), (8, 8, 0), *FAR) == [(7, 8, 0.3), (8, 8, 0.0), *FAR]
+    assert along((7, 8, 0.3), (7, 8, 0.6), *FAR, closed=False) == [(7, 8, 0.3), (7, 8, 0.6), *FAR]
+    assert along((7, 8, 0.6), *FAR, (8, 8, 0), closed=False) == [(7, 8, 0.6), *FAR, (8, 8, 0.0)]
