@@ -32,24 +32,49 @@ def refuse(parts, wish):
     if wish.output not in PARTING:
         return
     for part in parts:
-        bm = bmesh.from_edit_mesh(part.obj.data)
-        walls = {edge for outcome in part.done() for edge in sides.edges_along(bm, outcome.vertices, outcome.closed)}
-        problems = [_parting_problem(bm, outcome, walls, wish) for outcome in part.done()]
-        for outcome, problem in zip(part.done(), problems):
-            outcome.problem = problem
+        done = part.done()
+        chains = [(outcome.vertices, outcome.closed) for outcome in done]
+        bm = bmesh.from_edit_mesh(part.obj.data)  # faces live no longer than this
+        pieces = sides.pieces_between(bm, chains)
+        leaving = _leaving(pieces, wish)
+        for outcome, beside in zip(done, pieces):
+            outcome.problem = _parting_problem(outcome, beside, leaving, wish)
 
 
-def _parting_problem(bm, outcome, walls, wish):
+def _leaving(pieces, wish):
+    """The pieces that become objects of their own: in face mode those to the left, else all but the largest."""
+    if wish.output != "SEPARATE":
+        return []
+    parted = [(left, right) for left, right in pieces if left is not right]
+    if wish.face_mode:
+        return [left for left, _ in parted]
+    leaving = []
+    for group in _joined_groups(parted):
+        stays = max(group, key=lambda piece: piece.size)
+        leaving += [piece for piece in group if piece is not stays]
+    return leaving
+
+
+def _joined_groups(pairs):
+    """Lists of what is joined by pairs, in the order of the pairs."""
+    groups = []
+    for pair in pairs:
+        touched = [group for group in groups if any(item in group for item in pair)]
+        rest = [group for group in groups if group not in touched]
+        groups = [*rest, list(dict.fromkeys([item for group in touched for item in group] + list(pair)))]
+    return groups
+
+
+def _parting_problem(outcome, beside, leaving, wish):
     if wish.output == "RIP" and not outcome.closed:
         return ""  # a slit
-    part = sides.part_cut_off(bm, outcome.vertices, outcome.closed, walls)
-    if part is None:
+    if beside[0] is beside[1]:
         return report.inseparable(outcome)
-    if wish.output == "SEPARATE":
-        part = _wanted_part(bm, outcome.vertices, outcome.closed, walls, part, wish)
-        if any(face.hide for face in part):
-            return report.hidden_part(outcome)
-    return ""
+    parts = [(piece, piece is beside[0]) for piece in beside if piece in leaving]
+    for piece, _ in parts:
+        piece.finish()
+    outcome.leaving = tuple(on_left for piece, on_left in parts if not piece.any_hidden)
+    return report.hidden_part(outcome) if parts and not outcome.leaving else ""
 
 
 def changes_anything(parts, wish):
@@ -78,22 +103,25 @@ class _Cut:
     def __init__(self, part, wish):
         self.mesh, self.wish = part.obj.data, wish
         self.bm = bmesh.from_edit_mesh(self.mesh)
-        done = part.done()
-        results = [outcome.result for outcome in done]
+        self.done = part.done()
+        results = [outcome.result for outcome in self.done]
         self.changes_faces = wish.output in PARTING or cutting.cuts_faces(self.bm, results)
         self.normals_kept = self.changes_faces and custom_normals.keep(part.obj, self.bm, cutting.faces_cut(results))
         self._forget_old(part.old_edges())
         ids = cutting.cut_contours(self.bm, results, wish.merge)
         self.contours = [(vertices, result.closed) for vertices, result in zip(ids, results)]
         self.edges = self._edges_along(self.contours)
-        self.seeds = []  # a face of each part to separate
+        self.seeds = []  # a face of each part that is cut off
 
     def write(self):
         if self.wish.output in FLAGS:
             _set_flag(self.edges, self.wish.output, True)
         moved = self._move_selected_faces() if self.wish.face_mode else set()
-        if self.wish.output == "SEPARATE":
-            self.seeds = self._part_seeds()
+        self.seeds = [
+            sides.face_beside(self.bm, *contour, on_left)
+            for contour, outcome in zip(self.contours, self.done)
+            for on_left in outcome.leaving
+        ]
         if self.wish.output in PARTING:
             self._rip()
         if self.wish.face_mode:
@@ -130,17 +158,6 @@ class _Cut:
                 face.select_set(value)
         return gained | lost
 
-    def _part_seeds(self):
-        """One face of each part that is cut off; contours round one part share it."""
-        walls, seeds, known = set(self.edges), [], set()
-        for contour in self.contours:
-            part = sides.part_cut_off(self.bm, *contour, walls)
-            part = _wanted_part(self.bm, *contour, walls, part, self.wish)
-            if part.isdisjoint(known):
-                seeds.append(next(iter(part)))
-                known |= part
-        return seeds
-
     def _rip(self):
         """The edges of both rims are the contours' from now on. A slit has no hole to fill."""
         loops = self._edges_along(contour for contour in self.contours if contour[1])
@@ -161,22 +178,15 @@ def _tidy_selection(faces):
             face.select_set(True)
 
 
-def _wanted_part(bm, ids, closed, walls, smaller, wish):
-    """In face mode the part of the selected faces, else the smaller of the two."""
-    if not wish.face_mode:
-        return smaller
-    return sides.reach(sides.beside(bm, ids, closed)[0], walls, lambda face: True)
-
-
 def _separate(context, cut_parts):
     """Makes each part an object of its own; the rest keeps its selection."""
     with _nothing_selected([obj.data for obj in context.objects_in_mode_unique_data]):
         for cut in cut_parts:
             for seed in cut.seeds:
-                for face in sides.reach([seed], (), lambda face: True):
-                    face.select_set(True)
-                cut.bm.select_flush_mode()
-                bpy.ops.mesh.separate(type="SELECTED")
+                if seed.is_valid:  # else another contour of the same part came first
+                    seed.select_set(True)
+                    bpy.ops.mesh.select_linked(delimit=set())
+                    bpy.ops.mesh.separate(type="SELECTED")
 
 
 @contextmanager

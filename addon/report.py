@@ -23,6 +23,7 @@ class Outcome:
     closed: bool = True
     result: object = None
     problem: str = ""
+    leaving: tuple = ()  # where parts are to be separated: whether on the left, for each side that leaves
 
     @classmethod
     def of(cls, place, vertices, closed):

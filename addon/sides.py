@@ -25,49 +25,96 @@ def beside(bm, ids, closed):
     return left, right
 
 
-def part_cut_off(bm, ids, closed, walls):
-    """The smaller of the two pieces that a contour parts when all `walls` are cut, as a set of faces.
+def pieces_between(bm, chains):
+    """For each contour, as (ids, closed), the pieces to its left and right that the mesh falls into along all of them.
 
-    None where both sides hang together elsewhere, as round the ring of a torus. Both pieces grow in turn, so that this
-    costs no more than the smaller one.
+    One piece on both sides, as round the ring of a torus: this contour separates nothing. All pieces grow in turn until
+    all but one are whole, and that one is the largest, so that it costs no more than the next.
     """
-    left, right = (next(iter(filter(None, side)), None) for side in beside(bm, ids, closed))
-    if left is None or right is None or left == right:
-        return None
-    pieces = [_Piece(left), _Piece(right)]
-    while True:
-        for piece, other in (pieces, pieces[::-1]):
-            if not piece.grow(walls):
-                return piece.faces
-            if not piece.front.isdisjoint(other.faces):
-                return None
+    walls = {edge for chain in chains for edge in edges_along(bm, *chain)}
+    owners = {}
+    for chain in chains:
+        for face in map(_first, beside(bm, *chain)):
+            owners.setdefault(face, Piece(face, owners, walls))
+    seeded = list(owners.values())
+    growing = seeded
+    while len(growing) > 1:
+        for piece in growing:
+            piece.grow()
+        growing = [piece for piece in growing if piece.front]
+    for piece in growing:
+        others = max((other.size for other in seeded if other is not piece), default=0)
+        while piece.front and piece.size <= others:
+            piece.grow()
+    return [tuple(owners[_first(side)].whole() for side in beside(bm, *chain)) for chain in chains]
+
+
+def face_beside(bm, ids, closed, on_left):
+    """A face on one side of a contour."""
+    left, right = beside(bm, ids, closed)
+    return _first(left if on_left else right)
 
 
 def reach(seeds, walls, allowed):
     """The faces that hang together with the seeds without crossing a wall, of those allowed; a seed may be None."""
-    piece = _Piece(*(face for face in seeds if face and allowed(face)))
-    while piece.grow(walls, allowed):
-        pass
-    return piece.faces
-
-
-class _Piece:
-    """A set of faces that grows round by round."""
-
-    def __init__(self, *seeds):
-        self.faces = set(seeds)
-        self.front = set(seeds)
-
-    def grow(self, walls, allowed=lambda face: True):
-        """Adds the faces beside the last ones; whether there were any."""
-        beside_front = {
-            face
-            for last in self.front
-            for edge in last.edges
+    front = {face for face in seeds if face and allowed(face)}
+    faces = set(front)
+    while front:
+        front = {
+            other
+            for face in front
+            for edge in face.edges
             if edge not in walls
-            for face in edge.link_faces
-            if face not in self.faces and allowed(face)
+            for other in edge.link_faces
+            if other not in faces and allowed(other)
         }
-        self.faces |= beside_front
-        self.front = beside_front
-        return bool(beside_front)
+        faces |= front
+    return faces
+
+
+def _first(faces):
+    return next((face for face in faces if face), None)
+
+
+class Piece:
+    """A set of faces that hang together, which grows round by round and swallows the pieces that it meets."""
+
+    def __init__(self, face, owners, walls):
+        self.front = {face} if face else set()
+        self.size = len(self.front)
+        self.any_hidden = bool(face and face.hide)
+        self._behind = set()  # the front of before
+        self._owners, self._walls = owners, walls  # of all pieces alike
+        self._swallowed_by = None
+
+    def whole(self):
+        """The piece that this one has become part of."""
+        piece = self
+        while piece._swallowed_by:
+            piece = piece._swallowed_by
+        return piece
+
+    def grow(self):
+        """Adds the faces beside the last ones."""
+        walls, last = self._walls, self.front
+        beside = {other for face in last for edge in face.edges if edge not in walls for other in edge.link_faces}
+        new = beside.difference(self._owners)
+        met = beside.difference(new, last, self._behind)
+        self._owners.update(dict.fromkeys(new, self))
+        self.front, self._behind = new, last
+        self.size += len(new)
+        self.any_hidden = self.any_hidden or any(face.hide for face in new)
+        for face in met:
+            if self._owners[face].whole() is not self:
+                self._swallow(self._owners[face].whole())
+
+    def finish(self):
+        while self.front:
+            self.grow()
+
+    def _swallow(self, other):
+        other._swallowed_by = self
+        self.front |= other.front
+        self.size += other.size
+        self.any_hidden |= other.any_hidden
+        other.front = set()

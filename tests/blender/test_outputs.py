@@ -257,6 +257,7 @@ def test_separate_makes_an_object_of_the_smaller_part(settings, fill):
 
 
 def test_each_part_becomes_an_object_of_its_own():
+    """Of the others: the largest stays."""
     obj = grooved_cylinder(grooves=(5, 15))
     edit(obj)
     select(obj, pairs(rough_loop(4)) + pairs(rough_loop(13)))
@@ -264,6 +265,28 @@ def test_each_part_becomes_an_object_of_its_own():
     sizes = sorted(len(other.data.polygons) for other in bpy.data.objects if other is not obj)
     assert sizes == [5 * SEGMENTS, 5 * SEGMENTS]
     assert len(bm_of(obj).faces) == 10 * SEGMENTS
+
+
+@pytest.mark.parametrize("rows", [(4, 13), (3, 6), (12, 16), (2, 10)])
+def test_the_largest_part_stays(rows):
+    obj = grooved_cylinder(depth=0)
+    edit(obj)
+    select(obj, [pair for row in rows for pair in pairs(ring(row))])
+    run(output="SEPARATE")
+    bounds = [0, *rows, RINGS - 1]
+    expected = sorted((upper - lower) * SEGMENTS for lower, upper in zip(bounds, bounds[1:]))
+    assert len(bm_of(obj).faces) == expected[-1]
+    assert sorted(len(other.data.polygons) for other in bpy.data.objects if other is not obj) == expected[:-1]
+
+
+@pytest.mark.parametrize("other", [3, 8, 12, 15, 21])
+def test_of_the_parts_of_a_torus_the_largest_stays(other):
+    obj = torus()
+    edit(obj)
+    select(obj, pairs(torus_ring(0)) + pairs(torus_ring(other)))
+    run(output="SEPARATE", min_salience=5.0)  # the loops stay where they are
+    assert len(bm_of(obj).faces) == 12 * max(other, 24 - other)
+    assert len(bpy.data.objects) == 2
 
 
 def test_the_selected_faces_are_the_part_that_leaves():
