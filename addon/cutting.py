@@ -51,6 +51,7 @@ class _Knife:
     def __init__(self, bm, paths):
         self.bm = bm
         for sequence in (bm.verts, bm.edges, bm.faces):
+            sequence.index_update()
             sequence.ensure_lookup_table()
         all_stations = [station for path in paths for station in path]
         ids = {station.face for station in all_stations}
