@@ -132,6 +132,25 @@ def test_a_cut_seam_moves_and_is_not_doubled(flag):
     assert flagged(obj, flag) == flagged(obj, "select")
 
 
+def length_of(obj, flag):
+    bm = bm_of(obj)
+    bm.verts.ensure_lookup_table()
+    return sum((bm.verts[a].co - bm.verts[b].co).length for a, b in map(sorted, flagged(obj, flag)))
+
+
+@pytest.mark.parametrize("flag", ["seam", "sharp"])
+def test_a_kept_seam_stays_whole_where_the_new_one_crosses_it(flag):
+    obj = start(tilted_cylinder)
+    set_flag(obj, pairs(START), flag)
+    before = length_of(obj, flag)
+    run(output=flag.upper(), keep_old=True, **REFINED)
+    old_edges = flagged(obj, flag) - flagged(obj, "select")
+    assert old_edges
+    assert flagged(obj, flag) > flagged(obj, "select")
+    # What both share is counted once.
+    assert before - 1e-5 <= length_of(obj, flag) <= before + length_of(obj, "select") + 1e-5
+
+
 def test_merging_takes_the_points_of_a_cut_to_vertices():
     """With two points on an edge each lies within 0.35 of an end: what is left are diagonals of faces."""
     obj = start(tilted_cylinder)
@@ -461,6 +480,38 @@ def test_custom_normals_stay(output, settings):
         worst = np.degrees(np.arccos(np.clip((normals_of(mesh) * expected).sum(1), -1, 1))).max()
         assert worst < 1.0
         assert not [attribute.name for attribute in mesh.attributes if "contours" in attribute.name]
+
+
+@pytest.mark.parametrize("output", ["CUT", "SHARP"])
+def test_sharp_edges_stay_what_they_are_beside_custom_normals(output):
+    """Setting custom normals may mark edges as sharp; here none that the contour does not run along."""
+    obj = with_custom_normals(tilted_cylinder)
+    edit(obj)
+    set_flag(obj, pairs(ring(2)), "sharp")
+    select(obj, pairs(START))
+    run(output=output, **REFINED)
+    contour = flagged(obj, "select") if output == "SHARP" else set()
+    assert flagged(obj, "sharp") == edge_set(ring(2)) | contour
+
+
+def test_custom_normals_that_are_vectors_stay():
+    if bpy.app.version < (4, 5, 0):
+        pytest.skip("there are none before Blender 4.5")
+    obj = tilted_cylinder()
+    mesh = obj.data
+    vectors = mesh.attributes.new("custom_normal", "FLOAT_VECTOR", "CORNER")
+    vectors.data.foreach_set(
+        "vector", np.ravel([custom_normal(mesh.vertices[loop.vertex_index].co) for loop in mesh.loops])
+    )
+    edit(obj)
+    select(obj, pairs(START))
+    run(output="CUT", **REFINED)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert mesh.attributes["custom_normal"].data_type == "FLOAT_VECTOR"
+    expected = [custom_normal(mesh.vertices[loop.vertex_index].co) for loop in mesh.loops]
+    found = normals_of(mesh)
+    found /= np.linalg.norm(found, axis=1)[:, None]  # Blender interpolates them as vectors, a little shorter
+    assert np.degrees(np.arccos(np.clip((found * expected).sum(1), -1, 1))).max() < 1.0
 
 
 def test_an_active_shape_key_is_cut_where_it_is_shown():
