@@ -69,6 +69,14 @@ def read_selection(obj, face_mode):
     return EdgeSelection(vertices[chosen], vertices[chosen[~used[chosen]]])
 
 
+def with_mirror_images(obj, edges):
+    """The edges with their mirror images, or None; see contours.with_mirror_images."""
+    mesh = obj.data
+    visible = _read(mesh.edges, "vertices", np.int32, 2)[~_read(mesh.edges, "hide", bool)]
+    points = _read(_shown_points(obj), "co", np.float32, 3).astype(np.float64)
+    return contours.with_mirror_images(edges, points, visible)
+
+
 def is_unevenly_scaled(obj):
     """Whether an object looks different in the scene than in its own space, mirrored included."""
     scale = np.abs(obj.matrix_world.to_scale())

@@ -71,6 +71,10 @@ def uneven_scale(place):
     return f"{place} is scaled unevenly or mirrored, and is measured without it; to count it, apply it (Ctrl A > Scale)"
 
 
+def not_mirrored(place):
+    return f"X Mirror is on, but {place} is not symmetric here, so that only what is selected moved"
+
+
 def inside_out(place):
     return (
         f"The normals of {place} point inward, so that grooves count as ridges: "

@@ -16,6 +16,7 @@ class Part:
     obj: bpy.types.Object
     outcomes: list
     warnings: list
+    mirrored: bool = False  # whether there are contours that were not selected, but their mirror images
 
     def done(self):
         """The contours that are output."""
@@ -35,22 +36,30 @@ def optimize_selection(objects, face_mode, settings):
 def _optimize_part(obj, objects, face_mode, settings):
     mesh_access.synchronize(obj)
     selection = mesh_access.read_selection(obj, face_mode)
-    pieces = contours.sort_edges(selection.edges)
-    given = [(loop, True) for loop in pieces.loops] + [(chain, False) for chain in pieces.chains]
-    if face_mode:  # the part to the left
-        given = [(contours.along(vertices, selection.edges, closed), closed) for vertices, closed in given]
-    given = [report.Outcome.of(obj.name, vertices, closed) for vertices, closed in given]
-    branching = [
-        report.Outcome(obj.name, edges, problem=report.branching(contours.branch_vertices(edges)))
-        for edges in pieces.branching
-    ]
-    for outcome in given:
-        outcome.problem = _problem(outcome, selection.loose)
-    _optimize(obj, objects, [outcome for outcome in given if not outcome.problem], settings)
-    part = Part(obj, given + branching, [])
+    mirror = obj.data.use_mirror_x and len(selection.edges) > 0
+    images = mesh_access.with_mirror_images(obj, selection.edges) if mirror else None
+    edges = selection.edges if images is None else images
+    outcomes = _outcomes(obj.name, edges, face_mode)
+    for outcome in outcomes:
+        outcome.problem = outcome.problem or _problem(outcome, selection.loose)
+    _optimize(obj, objects, [outcome for outcome in outcomes if not outcome.problem], settings)
+    part = Part(obj, outcomes, [], mirrored=len(edges) > len(selection.edges))
     if part.done():
-        part.warnings = _warnings(obj)
+        part.warnings = _warnings(obj) + [report.not_mirrored(obj.name)] * (mirror and images is None)
     return part
+
+
+def _outcomes(place, edges, face_mode):
+    """One outcome for each connected piece; in face mode with the part to the left."""
+    pieces = contours.sort_edges(edges)
+    given = [(loop, True) for loop in pieces.loops] + [(chain, False) for chain in pieces.chains]
+    if face_mode:
+        given = [(contours.along(vertices, edges, closed), closed) for vertices, closed in given]
+    branching = [
+        report.Outcome(place, piece, problem=report.branching(contours.branch_vertices(piece)))
+        for piece in pieces.branching
+    ]
+    return [report.Outcome.of(place, vertices, closed) for vertices, closed in given] + branching
 
 
 def _warnings(obj):

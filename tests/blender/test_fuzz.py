@@ -78,6 +78,7 @@ def random_mesh(rng):
         lambda: rough_plate(seed),
     ]
     obj = make[rng.integers(3)]()
+    obj.data.use_mirror_x = bool(rng.random() < 0.2)
     if rng.random() < 0.5:
         add_attributes(obj, lambda points: 0.5 + points @ np.array([0.1, -0.1, 0.1]))
         obj.active_shape_key_index = int(rng.integers(2))

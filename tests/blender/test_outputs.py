@@ -554,6 +554,53 @@ def test_an_even_scale_is_not_warned_of(last):
     assert "Scale" not in last.message
 
 
+def dumbbell():
+    """Two grooves, to both sides of x = 0."""
+    obj = grooved_cylinder(grooves=(5, 15))
+    for vertex in obj.data.vertices:
+        x, y, _ = vertex.co
+        vertex.co = (vertex.index // SEGMENTS - 10) * 0.2, x, y
+    return obj
+
+
+@pytest.mark.parametrize("settings", [{}, REFINED])
+@pytest.mark.parametrize("mode", ["EDGE", "FACE"])
+def test_x_mirror_does_the_other_side_too(mode, settings, last):
+    obj = dumbbell()
+    obj.data.use_mirror_x = True
+    edit(obj, mode=mode)
+    if mode == "EDGE":
+        select(obj, pairs(rough_loop(4)))
+    else:
+        bm = bm_of(obj)
+        bm.faces.ensure_lookup_table()
+        for face in bm.faces[: 4 * SEGMENTS]:
+            face.select_set(True)
+    run(output="SEAM", **settings)
+    assert len(last.contours) == 2
+    bm = bm_of(obj)
+    seams = [edge for edge in bm.edges if edge.seam]
+    if not settings:
+        assert flagged(obj, "seam") == edge_set(ring(5)) | edge_set(ring(15))
+    assert sum(edge.verts[0].co.x > 0 for edge in seams) == sum(edge.verts[0].co.x < 0 for edge in seams)
+    if mode == "FACE":
+        heights = [face.calc_center_median().x for face in bm.faces if face.select]
+        assert sum(height > 0 for height in heights) == sum(height < 0 for height in heights) > 0
+        assert min(map(abs, heights)) > 0.7
+
+
+def test_x_mirror_of_what_is_not_symmetric(last):
+    obj = start()
+    obj.data.use_mirror_x = True
+    bm = bm_of(obj)
+    for vertex in bm.verts:
+        vertex.co.x += 0.1
+    bmesh.update_edit_mesh(obj.data)
+    run(output="SEAM")
+    assert flagged(obj, "seam") == GROOVE_EDGES
+    assert "X Mirror is on" in last.message
+
+
 @pytest.mark.parametrize("inward", [False, True])
 def test_a_closed_mesh_inside_out_is_warned_of(inward, last):
     obj = torus()
