@@ -165,7 +165,8 @@ class _Cut:
         slits = self._edges_along(contour for contour in self.contours if not contour[1])
         rims = bmesh.ops.split_edges(self.bm, edges=loops)["edges"]
         if self.wish.fill_holes:
-            bmesh.ops.holes_fill(self.bm, edges=rims, sides=0)
+            for face in bmesh.ops.holes_fill(self.bm, edges=rims, sides=0)["faces"]:
+                face.hide_set(False)  # it takes after a neighbour
         self.edges = rims + bmesh.ops.split_edges(self.bm, edges=slits)["edges"]
 
 

@@ -245,6 +245,19 @@ def test_rip_opens_the_mesh(settings, fill):
     assert sum(edge.is_boundary for edge in bm.edges) == 2 * SEGMENTS + (0 if fill else len(rims))
 
 
+def test_faces_that_fill_a_hole_are_shown_even_beside_hidden_ones():
+    obj = start()
+    bm = bm_of(obj)
+    hidden = [face for face in bm.faces if min(vertex.index // SEGMENTS for vertex in face.verts) >= GROOVE]
+    for face in hidden:
+        face.hide_set(True)
+    bmesh.update_edit_mesh(obj.data)
+    assert run(output="RIP", fill_holes=True) == {"FINISHED"}
+    caps = [face for face in bm_of(obj).faces if len(face.verts) > 4]
+    assert [face.hide for face in caps] == [False, False]
+    assert sum(face.hide for face in bm_of(obj).faces) == len(hidden)
+
+
 def test_faces_that_fill_a_hole_look_outward():
     obj = start(tilted_cylinder)
     run(output="RIP", fill_holes=True)
