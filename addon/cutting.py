@@ -26,7 +26,7 @@ def cut_contours(bm, contours, merge=0.0):
     """
     closed = [contour.closed for contour in contours]
     paths = [without_stops(stations(contour), contour.closed) for contour in contours]
-    paths = merge_stations(paths, closed, merge, _edges_of_hidden_faces(bm, paths))
+    paths = merge_stations(paths, closed, merge, _edges_of_hidden_faces(bm, paths), _border_vertices(bm, paths))
     if not _leaves_edges(bm, paths, closed):
         return [np.array([station.a for station in path]) for path in paths]
     knife = _Knife(bm, paths)
@@ -157,6 +157,12 @@ def _edges_of_hidden_faces(bm, paths):
     touched = {(station.a, station.b) for path in paths for station in path if not station.is_vertex}
     edges = {pair: bm.edges.get((bm.verts[pair[0]], bm.verts[pair[1]])) for pair in touched}
     return {pair for pair, edge in edges.items() if edge and any(face.hide for face in edge.link_faces)}
+
+
+def _border_vertices(bm, paths):
+    """The ends of edges crossed that lie on the border of the mesh, where a contour would have no side any more."""
+    ends = {vertex for path in paths for station in path for vertex in (station.a, station.b)}
+    return {vertex for vertex in ends if bm.verts[vertex].is_boundary}
 
 
 def _leaves_edges(bm, paths, closed):

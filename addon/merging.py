@@ -53,11 +53,11 @@ def without_stops(contour, closed):
     ]
 
 
-def merge_stations(contours, closed, fraction, kept_whole=frozenset()):
+def merge_stations(contours, closed, fraction, kept_whole=frozenset(), guarded=frozenset()):
     """Moves stations closer to a vertex than this fraction of their edge onto it; on edges to be kept whole, all.
 
     Only where they follow one another along one contour, which then runs through the vertex: so no contour comes to
-    touch itself or another, and none loses its last corners.
+    touch itself, another, or a guarded vertex that it did not touch before, and none loses its last corners.
     """
     near = defaultdict(lambda: defaultdict(list))  # vertex -> contour -> places of its stations there
     for c, contour in enumerate(contours):
@@ -68,7 +68,7 @@ def merge_stations(contours, closed, fraction, kept_whole=frozenset()):
                 near[station.nearest_vertex()][c].append(i)
     moved = [list(contour) for contour in contours]
     for vertex, visits in near.items():
-        if _may_merge(vertex, visits, contours, closed):
+        if _may_merge(vertex, visits, contours, closed, vertex in guarded):
             for c, places in visits.items():
                 for i in places:
                     moved[c][i] = contours[c][i].at_vertex(vertex)
@@ -95,12 +95,12 @@ def _end_beside(contour, i):
     return min(ends) if ends else station.nearest_vertex()
 
 
-def _may_merge(vertex, visits, contours, closed):
-    """One run of one contour; several contours only where all of them meet in the vertex already."""
+def _may_merge(vertex, visits, contours, closed, guarded):
+    """One run of one contour; several contours, or a guarded vertex, only where they meet it already."""
     if not all(_is_run(places, len(contours[c]), closed[c]) for c, places in visits.items()):
         return False
     at_vertex = [any(contours[c][i].place == (vertex, vertex, 0.0) for i in places) for c, places in visits.items()]
-    return len(visits) == 1 or all(at_vertex)
+    return all(at_vertex) or (len(visits) == 1 and not guarded)
 
 
 def _is_run(places, count, closed):
@@ -113,7 +113,7 @@ def _is_run(places, count, closed):
 def _kept(moved, given, closed):
     """Without repeated stations; the contour as given where too few would be left."""
     reduced = _without_repeats(moved, closed)
-    return reduced if len(reduced) >= (3 if closed else 2) else _without_repeats(given, closed)
+    return reduced if len(reduced) >= 3 else _without_repeats(given, closed)
 
 
 def _without_repeats(contour, closed):

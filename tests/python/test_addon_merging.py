@@ -74,8 +74,20 @@ def test_two_contours_do_not_come_to_touch():
 
 
 def test_contours_that_end_in_one_vertex_do_not_keep_points_from_it():
-    one, two = contour((8, 8, 0.0), (8, 9, 0.1), *FAR), contour((8, 8, 0.0), (8, 10, 0.1), (5, 6, 0.5))
-    assert merged(one, two, closed=False) == [[(8, 8, 0.0), *FAR], [(8, 8, 0.0), (5, 6, 0.5)]]
+    one, two = contour((8, 8, 0.0), (8, 9, 0.1), *FAR), contour((8, 8, 0.0), (8, 10, 0.1), (5, 6, 0.5), (6, 7, 0.5))
+    assert merged(one, two, closed=False) == [[(8, 8, 0.0), *FAR], [(8, 8, 0.0), (5, 6, 0.5), (6, 7, 0.5)]]
+
+
+def test_a_guarded_vertex_is_met_only_where_the_contour_met_it_before():
+    off, on = contour((8, 9, 0.1), *FAR), contour((8, 8, 0.0), (8, 9, 0.1), *FAR)
+    for given, expected in ((off, places(off)), (on, [(8, 8, 0.0), *FAR])):
+        (result,) = merging.merge_stations([given], [True], 0.3, guarded={8})
+        assert places(result) == expected
+
+
+def test_a_chain_does_not_fold_onto_one_edge():
+    given = contour((8, 8, 0.0), (8, 9, 0.1), (7, 9, 0.1), (7, 7, 0.0))
+    assert merged(given, closed=False) == [places(given)]
 
 
 def test_a_small_loop_does_not_vanish():
