@@ -13,28 +13,40 @@ from . import mesh_access, native, parameters, seams, segmentation
 _kept = {}  # mesh name -> (MeshArrays, Surface), of the meshes of the last call
 
 
-def optimize_contour(obj, vertices, close=False, **settings):
-    """The minimum ratio contour near a closed one, given by its vertices in order; the mesh stays as it is.
+def optimize_contour(obj, vertices, closed=True, close=False, **settings):
+    """The minimum ratio contour near a given one, given by its vertices in order; the mesh stays as it is.
 
     With `close`, the vertices are a chain, a quarter of a loop or more, that is closed round its limb first. The
     setting `anchor` says how strongly the result is held near the loop so closed; 0: not at all.
     """
     mesh_access.synchronize(obj)
-    return optimize_on(surface_of(obj), vertices, close=close, **settings)
+    return optimize_on(surface_of(obj), vertices, closed=closed, close=close, **settings)
 
 
-def optimize_on(surface, vertices, close=False, **settings):
+def optimize_on(surface, vertices, closed=True, close=False, **settings):
     """The same on a native surface."""
+    if close:
+        vertices, closed = native.module().close_contour(surface, vertices), True
+    return optimize_all_on(surface, [vertices], closed=closed, **settings)[0]
+
+
+def optimize_all_on(surface, contours, closed=True, **settings):
+    """Several contours of a native surface together, which never cross; `closed` is one for all or one for each."""
     mrc = native.module()
     options = mrc.Options(**parameters.native_options(**settings))
-    loop = mrc.close_contour(surface, vertices) if close else vertices
-    return mrc.optimize(surface, loop, closed=True, options=options)
+    return mrc.optimize_all(surface, contours, closed=closed, options=options)
+
+
+def problem_on(surface, vertices, closed=True):
+    """Why these vertices are no contour that could be optimized, in words; empty where they are one."""
+    return native.contour_problem(surface, vertices, closed)
 
 
 def optimize_seams(obj, selected_only=False, apply=False, **settings):
     """Optimizes all seams of a mesh, or those among its selected edges; with apply they move there.
 
-    Returns the native results, one for each chain between junctions and each closed loop that could move.
+    The settings are those of `parameters.NETWORK`. Returns the native results, one for each chain between junctions and
+    each closed loop that could move.
     """
     mesh_access.synchronize(obj)
     plan = seams.plan(obj, lambda: surface_of(obj), selected_only, **settings)
@@ -47,7 +59,7 @@ def optimize_segmentation(obj, source="FACE_SETS", attribute="", apply=False, **
     """Optimizes the borders between the regions of a labelling; with apply the labels move with them.
 
     source: FACE_SETS, MATERIAL or ATTRIBUTE; an attribute's name alone is enough.
-    Returns the native results, as optimize_seams does.
+    Returns the native results, as optimize_seams does, and takes the same settings.
     """
     mesh_access.synchronize(obj)
     labelling = segmentation.read_labelling(obj, "ATTRIBUTE" if attribute else source, attribute)

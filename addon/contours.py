@@ -5,6 +5,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+_MIRROR_TOLERANCE = 2e-5  # as Blender's own
+
 
 @dataclass(frozen=True)
 class SelectedContours:
@@ -49,6 +51,35 @@ def contour_edges(vertices, closed=True):
     return pairs if closed else pairs[:-1]
 
 
+def along(vertices, directed_edges, closed=True):
+    """A loop or chain in the direction of the (n, 2) edges that it was sorted from, going by its first."""
+    first, second = vertices[:2]
+    if np.any((directed_edges[:, 0] == first) & (directed_edges[:, 1] == second)):
+        return vertices
+    return np.roll(vertices[::-1], 1) if closed else vertices[::-1]
+
+
+def with_mirror_images(edges, points, visible_edges, tolerance=_MIRROR_TOLERANCE):
+    """The (n, 2) edges and, turned round, their images across x = 0; None where an image is missing or in the way.
+
+    Turned round, what lay to the left of an edge lies to the left of its image.
+    """
+    vertices, ends = np.unique(edges, return_inverse=True)
+    images = _mirror_images(points, vertices, tolerance)[ends].reshape(-1, 2)[:, ::-1]
+    if np.any(images < 0) or len(common_edges(images, _among(visible_edges, images))) < len(images):
+        return None
+    own = {frozenset(pair) for pair in edges.tolist()}
+    both = np.concatenate([edges, images[[frozenset(pair) not in own for pair in images.tolist()]]])
+    return both if len(sort_edges(both).branching) <= len(sort_edges(edges).branching) else None
+
+
+def common_edges(edges, others):
+    """Those of the (n, 2) edges that are among the others, in either direction."""
+    edges, others = (np.asarray(pairs).reshape(-1, 2) for pairs in (edges, others))
+    known = {frozenset(pair) for pair in others.tolist()}
+    return edges[[frozenset(pair) in known for pair in edges.tolist()]]
+
+
 def region_border(face_offsets, corner_edges, selected, hidden, edge_count):
     """The edges between a selected face and one that is visible and not selected.
 
@@ -60,6 +91,24 @@ def region_border(face_offsets, corner_edges, selected, hidden, edge_count):
     outside = np.zeros(edge_count, dtype=bool)
     outside[corner_edges[~(selected | hidden)[corner_faces]]] = True
     return np.flatnonzero(inside & outside)
+
+
+def _among(edges, some):
+    """Those of many edges whose ends both occur in some others."""
+    return edges[np.isin(edges, some).all(axis=1)]
+
+
+def _mirror_images(points, vertices, tolerance):
+    """For each of the vertices the point at its image across x = 0; -1 where there is none."""
+    order = np.argsort(points[:, 0], kind="stable")
+    sorted_x = points[order, 0]
+    images = []
+    for target in points[vertices] * (-1, 1, 1):
+        first, last = np.searchsorted(sorted_x, (target[0] - tolerance, target[0] + tolerance))
+        near = order[first:last]
+        distances = np.linalg.norm(points[near] - target, axis=1)
+        images.append(near[np.argmin(distances)] if np.any(distances <= tolerance) else -1)
+    return np.array(images, dtype=np.int32)
 
 
 def component_labels(ends, count):

@@ -4,12 +4,11 @@
 import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
-from . import api, mesh_access, native, panels, report, seams, segmentation
-from .operators import ContourSettings, unwrap_live
-from .parameters import MAIN
+from . import api, mesh_access, native, outputs, panels, report, seams, segmentation
+from .operators import NetworkSettings
 
 
-class NetworkOperator(ContourSettings):
+class NetworkOperator(NetworkSettings):
     """What both have in common."""
 
     @classmethod
@@ -45,8 +44,7 @@ class NetworkOperator(ContourSettings):
         layout.use_property_split = True
         layout.use_property_decorate = False
         self._draw_source(layout, context)
-        for name in ("width", "whole_surface", *MAIN):
-            layout.prop(self, name)
+        panels.draw_search_settings(layout, self)
         panels.draw_more_settings(layout, self)
 
     def _plan(self, obj, objects):
@@ -82,16 +80,11 @@ Where seams meet they stay together, and every island stays one island"""
     def _plan_on(self, obj, make_surface):
         plan = seams.plan(obj, make_surface, self.selected_only, **self.settings())
         select = self.selected_only and seams.only_seams_selected(obj)
-        return seams.outcomes(obj.name, plan), (lambda: self._write(obj, plan, select)) if plan.changed else None
-
-    def _write(self, obj, plan, select):
-        seams.write(obj, plan)
-        if select:
-            mesh_access.write_selection(obj.data, plan.old_edges(), plan.new_edges())
+        write = (lambda: seams.write(obj, plan, select)) if plan.changed else None
+        return seams.outcomes(obj.name, plan), write
 
     def _written(self, context):
-        if context.tool_settings.use_edge_path_live_unwrap:
-            unwrap_live([obj.data for obj in context.objects_in_mode_unique_data])
+        outputs.unwrap_live(context, [obj.data for obj in context.objects_in_mode_unique_data])
 
     def _draw_source(self, layout, context):
         layout.prop(self, "selected_only")

@@ -327,10 +327,11 @@ def optimize(make_surface, topology, marked, chosen=None, progress=None, **setti
     The native surface is made where there is something to move. All chains are given to the search, since they keep
     each other away; the paths of those that must stay are dropped: no other contour passes where one was given.
     """
+    options = native.module().Options(**parameters.network_options(**settings))
     chains = find_chains(topology, marked, chosen)
     if not any(chain.movable for chain in chains):
         return Plan(chains, [None] * len(chains), {}, _all_stay(topology, marked, chains), topology)
-    results, problems = _search(make_surface(), chains, _options(settings), progress)
+    results, problems = _search(make_surface(), chains, options, progress)
     paths = [_new_path(chain, result) for chain, result in zip(chains, results)]
     return Plan(chains, results, problems, settle(topology, marked, chains, paths), topology)
 
@@ -338,10 +339,6 @@ def optimize(make_surface, topology, marked, chosen=None, progress=None, **setti
 def _all_stay(topology, marked, chains):
     before = regions(topology, marked)
     return Settlement([False] * len(chains), {}, before, before)
-
-
-def _options(settings):
-    return native.module().Options(**parameters.native_options(**settings), ends="border")
 
 
 def _new_path(chain, result):
@@ -358,7 +355,7 @@ def _search(surface, chains, options, progress):
         try:
             found = _search_all(surface, chains, given, list(problems), options, progress) if given else []
         except ValueError as error:
-            problems |= _refused(surface, chains, given, options, str(error))
+            problems |= _refused(surface, chains, given, str(error))
         else:
             results = dict(zip(given, found))
             return [results.get(i) for i in range(len(chains))], problems
@@ -377,19 +374,11 @@ def _search_all(surface, chains, given, left_out, options, progress):
     )
 
 
-def _refused(surface, chains, given, options, message):
+def _refused(surface, chains, given, message):
     """Those of the given chains that are no contours by themselves; or else the one that the message names."""
-    problems = {i: _problem(surface, chains[i], options) for i in given}
+    problems = {i: native.contour_problem(surface, chains[i].vertices, chains[i].closed) for i in given}
     problems = {i: problem for i, problem in problems.items() if problem}
     named = re.match(r"contour (\d+): (.*)", message, re.DOTALL)
     if problems:
         return problems
     return {given[int(named[1])]: named[2]} if named else dict.fromkeys(given, message)
-
-
-def _problem(surface, chain, options):
-    try:
-        native.module().measure(surface, chain.vertices, closed=chain.closed, options=options)
-    except ValueError as error:
-        return str(error)
-    return ""

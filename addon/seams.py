@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The seams of a mesh as a network of contours, and back."""
 
-from . import mesh_access, networks, report
+from . import mesh_access, networks, outputs, report
 
 
 def plan(obj, make_surface, selected_only=False, progress=None, **settings):
@@ -21,10 +21,10 @@ def only_seams_selected(obj):
     return not (selected & ~seams).any()
 
 
-def write(obj, plan):
-    """Moves the seams."""
+def write(obj, plan, selection=False):
+    """Moves the seams; in Edit Mode the selection along them too, where that is wanted."""
     if obj.data.is_editmode:
-        mesh_access.write_flags(obj.data, "seam", plan.old_edges(), plan.new_edges())
+        outputs.move_flag(obj.data, "SEAM", plan.old_edges(), plan.new_edges(), selection)
     else:
         edges = (plan.topology.find(pairs)[0] for pairs in (plan.old_edges(), plan.new_edges()))
         mesh_access.write_seams(obj.data, *edges)

@@ -21,7 +21,7 @@ from made_meshes import (
     select,
     set_flag,
 )
-from minimum_ratio_contours import api, mesh_access, native
+from minimum_ratio_contours import api, mesh_access, native, parameters
 
 START = rough_loop(GROOVE - 3)
 
@@ -275,6 +275,15 @@ def test_api(mode):
     api.optimize_seams(obj, apply=True)
     mesh_access.synchronize(obj)
     assert seam_set(obj.data) == edge_set(ring(GROOVE))
+
+
+@pytest.mark.parametrize("name", sorted(parameters.SETTINGS.keys() - parameters.NETWORK))
+def test_networks_run_along_edges_and_their_ends_are_settled(name):
+    obj = start(pairs(START))
+    with pytest.raises(TypeError, match=name):
+        run(**{name: parameters.SETTINGS[name]["default"]})
+    with pytest.raises(TypeError, match=name):
+        api.optimize_seams(obj, **{name: parameters.SETTINGS[name]["default"]})
 
 
 # ---- random networks

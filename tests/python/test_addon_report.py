@@ -45,10 +45,13 @@ def test_summary(outcomes, expected):
 
 
 def test_problems_name_their_elements():
-    assert report.open_chain([4, 8, 9]) == "an open chain from vertex 4 to 9, only closed loops can be optimized"
+    assert "a single edge, 4-8," in report.single_edge([4, 8])
     assert "at vertex 7;" in report.branching([7])
     assert "at vertices 1, 2, 3 and 6 more;" in report.branching(list(range(1, 10)))
     assert "(1-2, 2-3)" in report.loose([(1, 2), (2, 3)])
+    ring, strand = report.Outcome.of("Ring", [3, 4, 5], True), report.Outcome.of("Ring", [3, 4, 5], False)
+    assert "the loop through vertex 3 does not separate" in report.inseparable(ring)
+    assert "from vertex 3 to 5 does not separate" in report.inseparable(strand)
 
 
 TORN = "a border whose move would join or split regions"
@@ -84,3 +87,16 @@ def test_each_chain_that_could_move_has_a_result_or_a_problem():
     assert [outcome.result for outcome in outcomes] == [result, None, None, None]
     thin = "the borders of region 7, which is too thin to keep otherwise"
     assert [outcome.problem for outcome in outcomes] == ["", "beside a hole", thin, TORN]
+
+
+def test_warnings_follow_once_each():
+    warning = report.inside_out("Hand")
+    assert "Recalculate Outside (Shift N)" in warning
+    message = report.summary([done(), left("it branches")], [warning, warning])
+    assert message == f"1 contour improved. Ratio 0.5 to -1. Left as it is: it branches. {warning}"
+
+
+def test_a_contour_that_cannot_be_output_counts_as_left():
+    refused = done()
+    refused.problem = "it separates nothing"
+    assert report.summary([refused]) == "Left as it is: it separates nothing"
