@@ -8,7 +8,7 @@
 The settings are those of `parameters.SETTINGS`. Bad input raises a ValueError that names the elements.
 """
 
-from . import mesh_access, native, parameters, seams, segmentation
+from . import mesh_access, native, networks, parameters, seams, segmentation
 
 _kept = {}  # mesh name -> (MeshArrays, Surface), of the meshes of the last call
 
@@ -30,11 +30,14 @@ def optimize_on(surface, vertices, closed=True, close=False, **settings):
     return optimize_all_on(surface, [vertices], closed=closed, **settings)[0]
 
 
-def optimize_all_on(surface, contours, closed=True, **settings):
-    """Several contours of a native surface together, which never cross; `closed` is one for all or one for each."""
+def optimize_all_on(surface, contours, closed=True, progress=None, **settings):
+    """Several contours of a native surface together, which never cross; `closed` is one for all or one for each.
+
+    `progress` is called with the share done; an exception that it raises passes through.
+    """
     mrc = native.module()
     options = mrc.Options(**parameters.native_options(**settings))
-    return mrc.optimize_all(surface, contours, closed=closed, options=options)
+    return mrc.optimize_all(surface, contours, closed=closed, options=options, progress=progress)
 
 
 def problem_on(surface, vertices, closed=True):
@@ -49,7 +52,7 @@ def optimize_seams(obj, selected_only=False, apply=False, **settings):
     each closed loop that could move.
     """
     mesh_access.synchronize(obj)
-    plan = seams.plan(obj, lambda: surface_of(obj), selected_only, **settings)
+    plan = _plan(obj, seams.read_network(obj, selected_only), settings)
     if apply and plan.changed:
         seams.write(obj, plan)
     return list(plan.taken_results().values())
@@ -63,7 +66,7 @@ def optimize_segmentation(obj, source="FACE_SETS", attribute="", apply=False, **
     """
     mesh_access.synchronize(obj)
     labelling = segmentation.read_labelling(obj, "ATTRIBUTE" if attribute else source, attribute)
-    plan = segmentation.plan(obj, lambda: surface_of(obj), labelling, **settings)
+    plan = _plan(obj, segmentation.read_network(obj, labelling), settings)
     if apply and plan.changed:
         segmentation.write(obj, labelling, plan)
     return list(plan.taken_results().values())
@@ -86,9 +89,25 @@ def surface_of(obj, beside=()):
     return _kept[name][1]
 
 
+def are_current(surfaces):
+    """Whether pairs of an object and its surface still belong together: the meshes are as they were, in Edit Mode."""
+    try:
+        for obj, surface in surfaces:
+            mesh_access.synchronize(obj)
+            if surface_of(obj, beside=[other for other, _ in surfaces]) is not surface:
+                return False
+    except ReferenceError:  # an object that was deleted
+        return False
+    return True
+
+
 def forget():
     """Drops the surfaces that are kept."""
     _kept.clear()
+
+
+def _plan(obj, network, settings):
+    return networks.optimize(surface_of(obj) if network.movable else None, network, **settings)
 
 
 def _forget_others(names):

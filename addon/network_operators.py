@@ -1,43 +1,65 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operators that optimize a whole network: all seams, or all borders between regions."""
 
+from dataclasses import dataclass
+
 import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
-from . import api, mesh_access, native, outputs, panels, report, seams, segmentation
-from .operators import NetworkSettings
+from . import api, jobs, mesh_access, networks, outputs, panels, report, seams, segmentation
+from .operators import NetworkSettings, SearchInEditMode
 
 
-class NetworkOperator(NetworkSettings):
+@dataclass
+class Task:
+    """One object's network, and what becomes of it."""
+
+    obj: bpy.types.Object
+    problem: str = ""  # why there is no network
+    about: object = None  # what the operator must know to write it
+    network: networks.Network = None
+    surface: object = None  # where something is movable
+    plan: networks.Plan = None
+
+
+def optimize_tasks(tasks, settings, progress=None):
+    """Gives each task its plan, or its problem. Without bpy, for any thread."""
+    for i, task in enumerate(tasks):
+        try:
+            task.plan = networks.optimize(
+                task.surface, task.network, jobs.share_of(progress, i, len(tasks)), **settings
+            )
+        except ValueError as error:
+            task.problem = str(error)
+
+
+class NetworkOperator(NetworkSettings, SearchInEditMode):
     """What both have in common."""
 
-    @classmethod
-    def poll(cls, context):
-        if context.mode == "EDIT_MESH":
-            return True
-        cls.poll_message_set("Contours are optimized in Edit Mode of a mesh")
-        return False
-
-    def execute(self, context):
-        try:
-            native.module()
-        except native.Unavailable as error:
-            return self._finish(context, "ERROR", str(error), [], changed=False)
+    def read(self, context):
         objects = context.objects_in_mode_unique_data
-        outcomes, writers = [], []
-        for obj in objects:
-            found, write = self._plan(obj, objects)
-            outcomes += found
-            writers += [write] if write else []
+        return [self._read_task(obj, objects) for obj in objects]
+
+    def search(self, tasks):
+        sound, settings = [task for task in tasks if not task.problem], self.settings()
+        return lambda progress: optimize_tasks(sound, settings, progress)
+
+    def apply(self, context, tasks):
+        outcomes = [outcome for task in tasks for outcome in self._outcomes(task)]
         if not outcomes:
-            return self._finish(context, "WARNING", self.nothing, [], changed=False)
-        for write in writers:
-            write()
-        if writers:
-            self._written(context)
+            return self.give_up(context, "WARNING", self.nothing)
+        moved = [task for task in tasks if task.plan and task.plan.changed]
         message = report.network_summary(outcomes, self.noun)
         level = "WARNING" if any(outcome.problem for outcome in outcomes) else "INFO"
-        return self._finish(context, level, message, outcomes, changed=bool(writers))
+        if not moved:
+            return self.give_up(context, level, message, outcomes)
+        for task in moved:
+            self._write(task)
+        self._written(context)
+        return self.tell(context, level, message, outcomes)
+
+    def surfaces(self, tasks):
+        return [(task.obj, task.surface) for task in tasks if task.surface]
 
     def draw(self, context):
         layout = self.layout
@@ -47,18 +69,21 @@ class NetworkOperator(NetworkSettings):
         panels.draw_search_settings(layout, self)
         panels.draw_more_settings(layout, self)
 
-    def _plan(self, obj, objects):
-        """The outcomes of an object, and what writes them; None where nothing moves."""
+    def _read_task(self, obj, objects):
         mesh_access.synchronize(obj)
+        task = Task(obj)
         try:
-            return self._plan_on(obj, lambda: api.surface_of(obj, beside=objects))
+            self._read_network(task)
+            if task.network.movable:
+                task.surface = api.surface_of(obj, beside=objects)
         except ValueError as error:
-            return [report.Outcome(obj.name, None, problem=str(error))], None
+            task.problem = str(error)
+        return task
 
-    def _finish(self, context, level, message, outcomes, changed):
-        panels.show_result(context, message, outcomes)
-        self.report({level}, message)
-        return {"FINISHED" if changed else "CANCELLED"}
+    def _outcomes(self, task):
+        if task.problem:
+            return [report.Outcome(task.obj.name, None, problem=task.problem)]
+        return self._chain_outcomes(task)
 
 
 class MESH_OT_optimize_seams(NetworkOperator, bpy.types.Operator):
@@ -67,7 +92,6 @@ Where seams meet they stay together, and every island stays one island"""
 
     bl_idname = "mesh.optimize_seams"
     bl_label = "Optimize Seams"
-    bl_options = {"REGISTER", "UNDO"}
     noun = "seams"
     nothing = "Nothing to optimize: there are no seams of two edges or more; mark some, or clear Selected Only"
 
@@ -77,11 +101,15 @@ Where seams meet they stay together, and every island stays one island"""
         default=False,
     )
 
-    def _plan_on(self, obj, make_surface):
-        plan = seams.plan(obj, make_surface, self.selected_only, **self.settings())
-        select = self.selected_only and seams.only_seams_selected(obj)
-        write = (lambda: seams.write(obj, plan, select)) if plan.changed else None
-        return seams.outcomes(obj.name, plan), write
+    def _read_network(self, task):
+        task.network = seams.read_network(task.obj, self.selected_only)
+        task.about = self.selected_only and seams.only_seams_selected(task.obj)
+
+    def _chain_outcomes(self, task):
+        return seams.outcomes(task.obj.name, task.plan)
+
+    def _write(self, task):
+        seams.write(task.obj, task.plan, selection=task.about)
 
     def _written(self, context):
         outputs.unwrap_live(context, [obj.data for obj in context.objects_in_mode_unique_data])
@@ -96,7 +124,6 @@ Where three regions meet they stay together, and no region is lost"""
 
     bl_idname = "mesh.optimize_segmentation"
     bl_label = "Optimize Segmentation"
-    bl_options = {"REGISTER", "UNDO"}
     noun = "borders"
     nothing = "Nothing to optimize: there are no borders between regions; choose another source, or label some faces"
 
@@ -112,11 +139,15 @@ Where three regions meet they stay together, and no region is lost"""
     )
     attribute: StringProperty(name="Attribute", description="The name of an integer attribute of the faces", default="")
 
-    def _plan_on(self, obj, make_surface):
-        labelling = segmentation.read_labelling(obj, self.source, self.attribute)
-        plan = segmentation.plan(obj, make_surface, labelling, **self.settings())
-        write = (lambda: segmentation.write(obj, labelling, plan)) if plan.changed else None
-        return segmentation.outcomes(obj.name, labelling, plan), write
+    def _read_network(self, task):
+        task.about = segmentation.read_labelling(task.obj, self.source, self.attribute)
+        task.network = segmentation.read_network(task.obj, task.about)
+
+    def _chain_outcomes(self, task):
+        return segmentation.outcomes(task.obj.name, task.about, task.plan)
+
+    def _write(self, task):
+        segmentation.write(task.obj, task.about, task.plan)
 
     def _written(self, context):
         """Nothing follows from labels."""

@@ -111,6 +111,24 @@ class Chain:
         return self.chosen and self.edge_count > 1
 
 
+@dataclass(frozen=True)
+class Network:
+    """The marked edges of a mesh, and the chains into which they fall."""
+
+    topology: Topology
+    marked: np.ndarray  # (n,) edges
+    chains: list
+
+    @property
+    def movable(self):
+        return any(chain.movable for chain in self.chains)
+
+
+def make_network(topology, marked, chosen=None):
+    """Of the marked edges only the chosen ones move (None: all of them)."""
+    return Network(topology, marked, find_chains(topology, marked, chosen))
+
+
 def find_chains(topology, marked, chosen=None):
     """The chains of the marked edges between two shown faces: every one of these edges is in exactly one chain.
 
@@ -321,24 +339,24 @@ class Plan:
         return np.concatenate(pairs) if pairs else np.empty((0, 2), dtype=np.int32)
 
 
-def optimize(make_surface, topology, marked, chosen=None, progress=None, **settings):
-    """Optimizes the network of the marked edges; of these only the chosen ones move (None: all of them).
+def optimize(surface, network, progress=None, **settings):
+    """Optimizes a network on its native surface, which is needed where something is movable.
 
-    The native surface is made where there is something to move. All chains are given to the search, since they keep
-    each other away; the paths of those that must stay are dropped: no other contour passes where one was given.
+    All chains are given to the search, since they keep each other away; the paths of those that must stay are dropped:
+    no other contour passes where one was given.
     """
     options = native.module().Options(**parameters.network_options(**settings))
-    chains = find_chains(topology, marked, chosen)
-    if not any(chain.movable for chain in chains):
-        return Plan(chains, [None] * len(chains), {}, _all_stay(topology, marked, chains), topology)
-    results, problems = _search(make_surface(), chains, options, progress)
+    topology, marked, chains = network.topology, network.marked, network.chains
+    if not network.movable:
+        return Plan(chains, [None] * len(chains), {}, _all_stay(network), topology)
+    results, problems = _search(surface, chains, options, progress)
     paths = [_new_path(chain, result) for chain, result in zip(chains, results)]
     return Plan(chains, results, problems, settle(topology, marked, chains, paths), topology)
 
 
-def _all_stay(topology, marked, chains):
-    before = regions(topology, marked)
-    return Settlement([False] * len(chains), {}, before, before)
+def _all_stay(network):
+    before = regions(network.topology, network.marked)
+    return Settlement([False] * len(network.chains), {}, before, before)
 
 
 def _new_path(chain, result):

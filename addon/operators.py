@@ -4,7 +4,7 @@
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
-from . import native, outputs, panels, report, selection
+from . import api, jobs, native, outputs, panels, report, selection
 from .parameters import SETTINGS
 
 
@@ -71,16 +71,29 @@ class ContourOutput:
         max=0.5,
     )
 
-    def wish(self, face_mode):
+    def wish(self, context):
+        face_mode = tuple(context.tool_settings.mesh_select_mode) == (False, False, True)
         return outputs.Wish(self.output, self.keep_old, self.fill_holes, self.merge, face_mode)
 
+    def finish(self, context, parts, wish):
+        """Makes the output of what was found and says what became of it; the operator's last step."""
+        for part in parts:
+            selection.note_warnings(part)
+        outputs.refuse(parts, wish)
+        outcomes = [outcome for part in parts for outcome in part.outcomes]
+        if not outcomes:
+            return self.give_up(context, "WARNING", report.NOTHING_SELECTED)
+        warnings = [warning for part in parts for warning in part.warnings]
+        message = report.summary(outcomes, warnings)
+        level = "WARNING" if warnings or any(outcome.problem for outcome in outcomes) else "INFO"
+        if not outputs.changes_anything(parts, wish):
+            return self.give_up(context, level, message, outcomes)
+        outputs.write(context, parts, wish)
+        return self.tell(context, level, message, outcomes)
 
-class MESH_OT_optimize_contour(ContourSettings, ContourOutput, bpy.types.Operator):
-    """Move each selected loop or chain to the part boundary nearby, where the surface is most concave for its length"""
 
-    bl_idname = "mesh.optimize_contour"
-    bl_label = "Optimize Contour"
-    bl_options = {"REGISTER", "UNDO"}
+class InEditMode:
+    """Where the operators can be called, with the reason where they cannot, and how they talk to the user."""
 
     @classmethod
     def poll(cls, context):
@@ -93,35 +106,55 @@ class MESH_OT_optimize_contour(ContourSettings, ContourOutput, bpy.types.Operato
             cls.poll_message_set("Contours are optimized in Edit Mode of a mesh")
         return False
 
-    def execute(self, context):
-        try:
-            native.module()
-        except native.Unavailable as error:
-            return self._cancel(context, "ERROR", str(error))
-        wish = self.wish(tuple(context.tool_settings.mesh_select_mode) == (False, False, True))
-        parts = selection.optimize_selection(context.objects_in_mode_unique_data, wish.face_mode, self.settings())
-        outputs.refuse(parts, wish)
-        outcomes = [outcome for part in parts for outcome in part.outcomes]
-        if not outcomes:
-            return self._cancel(context, "WARNING", report.NOTHING_SELECTED)
-        warnings = [warning for part in parts for warning in part.warnings]
-        message = report.summary(outcomes, warnings)
-        level = "WARNING" if warnings or any(outcome.problem for outcome in outcomes) else "INFO"
-        if not outputs.changes_anything(parts, wish):
-            return self._cancel(context, level, message, outcomes)
-        outputs.write(context, parts, wish)
+    def tell(self, context, level, message, outcomes=()):
         panels.show_result(context, message, outcomes)
         self.report({level}, message)
         return {"FINISHED"}
 
+    def give_up(self, context, level, message, outcomes=()):
+        self.tell(context, level, message, outcomes)
+        return {"CANCELLED"}
+
+
+class SearchInEditMode(InEditMode, jobs.SearchOperator):
+    """What the operators that search once, and write what they found, have in common."""
+
+    bl_options = {"REGISTER", "UNDO"}
+
+    def prepare(self, context):
+        problem = native.problem()
+        if problem:
+            self.give_up(context, "ERROR", problem)
+            return None
+        return self.read(context)
+
+    def is_current(self, context, work):
+        return context.mode == "EDIT_MESH" and api.are_current(self.surfaces(work))
+
+
+class MESH_OT_optimize_contour(ContourSettings, ContourOutput, SearchInEditMode, bpy.types.Operator):
+    """Move each selected loop or chain to the part boundary nearby, where the surface is most concave for its length"""
+
+    bl_idname = "mesh.optimize_contour"
+    bl_label = "Optimize Contour"
+
+    def read(self, context):
+        wish = self.wish(context)
+        return selection.read_parts(context.objects_in_mode_unique_data, wish.face_mode), wish
+
+    def search(self, work):
+        parts, settings = work[0], self.settings()
+        return lambda progress: selection.optimize_parts(parts, settings, progress)
+
+    def apply(self, context, work):
+        return self.finish(context, *work)
+
+    def surfaces(self, work):
+        return [(part.obj, part.surface) for part in work[0] if part.surface]
+
     def draw(self, context):
         panels.draw_settings(self.layout, self)
         panels.draw_more_settings(self.layout, self)
-
-    def _cancel(self, context, level, message, outcomes=()):
-        panels.show_result(context, message, outcomes)
-        self.report({level}, message)
-        return {"CANCELLED"}
 
 
 def register():

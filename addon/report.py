@@ -10,6 +10,8 @@ from .contours import contour_edges
 NOTHING_SELECTED = (
     "Nothing to optimize: select closed loops or open chains of edges, or faces in face mode to use their borders"
 )
+CANCELLED = "Cancelled: everything is as it was"
+CHANGED_MEANWHILE = "The mesh was changed during the search, so that nothing was written; run it again"
 _NAMED = 3  # of several alike, only so many are named
 
 

@@ -4,15 +4,15 @@
 from . import mesh_access, networks, outputs, report
 
 
-def plan(obj, make_surface, selected_only=False, progress=None, **settings):
-    """What becomes of a synchronized mesh's seams, or of those among its selected edges. Writes nothing.
+def read_network(obj, selected_only=False):
+    """A synchronized mesh's seams; those among its selected edges move, or all.
 
     Every island of the UV map stays one island, on the same side of its seams.
     """
     topology = networks.make_topology(**vars(mesh_access.read_edge_arrays(obj.data)))
     seams, selected = mesh_access.read_seams(obj.data)
     chosen = seams & selected if selected_only else seams
-    return networks.optimize(make_surface, topology, seams, chosen, progress, **settings)
+    return networks.make_network(topology, seams, chosen)
 
 
 def only_seams_selected(obj):

@@ -34,15 +34,14 @@ def read_labelling(obj, source, attribute=""):
     return Labelling(name, labels)
 
 
-def plan(obj, make_surface, labelling, progress=None, **settings):
-    """What becomes of the borders between a synchronized mesh's regions. Writes nothing.
+def read_network(obj, labelling):
+    """The borders between a synchronized mesh's regions.
 
     A region is one connected piece of one label. Contours run along edges, since labels belong to whole faces. Those
     across faces would have to be cut into the mesh first, and the labels read again.
     """
     topology = networks.make_topology(**vars(mesh_access.read_edge_arrays(obj.data)))
-    borders = networks.label_borders(topology, labelling.labels)
-    return networks.optimize(make_surface, topology, borders, progress=progress, **settings)
+    return networks.make_network(topology, networks.label_borders(topology, labelling.labels))
 
 
 def new_labels(labelling, plan):

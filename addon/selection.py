@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From what is selected in Edit Mode to an outcome for each of its contours; changes nothing."""
+"""From what is selected in Edit Mode to an outcome for each of its contours; changes nothing there."""
 
 from dataclasses import dataclass
 
 import bpy
 import numpy as np
 
-from . import api, contours, mesh_access, report
+from . import api, contours, jobs, mesh_access, report
 
 
 @dataclass
@@ -17,6 +17,12 @@ class Part:
     outcomes: list
     warnings: list
     mirrored: bool = False  # whether there are contours that were not selected, but their mirror images
+    asymmetric: bool = False  # whether mirror images were asked for and are not there
+    surface: object = None  # the native surface, where there is something to optimize
+
+    def sound(self):
+        """The contours that can be handed to the search."""
+        return [outcome for outcome in self.outcomes if not outcome.problem]
 
     def done(self):
         """The contours that are output."""
@@ -27,13 +33,36 @@ class Part:
         edge_lists = [outcome.edges for outcome in self.done()]
         return np.concatenate(edge_lists) if edge_lists else np.empty((0, 2), dtype=np.int32)
 
+    def fail(self, error):
+        """Why nothing can be done with any of the contours that could be handed to the search."""
+        for outcome in self.sound():
+            outcome.problem = str(error)
 
-def optimize_selection(objects, face_mode, settings):
-    """A Part for each object, with an outcome for each connected piece of its selection."""
-    return [_optimize_part(obj, objects, face_mode, settings) for obj in objects]
+
+def read_parts(objects, face_mode):
+    """A Part for each object, with an outcome for each connected piece of its selection; nothing is optimized yet."""
+    parts = [read_part(obj, face_mode) for obj in objects]
+    for part in parts:
+        if part.sound():
+            try:
+                part.surface = api.surface_of(part.obj, beside=objects)
+            except ValueError as error:
+                part.fail(error)
+    return parts
 
 
-def _optimize_part(obj, objects, face_mode, settings):
+def optimize_parts(parts, settings, progress=None):
+    """Gives each outcome its result, or the problem that keeps it from one. Without bpy, for any thread."""
+    searched = [part for part in parts if part.surface]
+    for i, part in enumerate(searched):
+        try:
+            _fill_in(part.surface, part.sound(), settings, jobs.share_of(progress, i, len(searched)))
+        except ValueError as error:
+            part.fail(error)
+
+
+def read_part(obj, face_mode):
+    """One object's share of the selection."""
     mesh_access.synchronize(obj)
     selection = mesh_access.read_selection(obj, face_mode)
     mirror = obj.data.use_mirror_x and len(selection.edges) > 0
@@ -42,11 +71,13 @@ def _optimize_part(obj, objects, face_mode, settings):
     outcomes = _outcomes(obj.name, edges, face_mode)
     for outcome in outcomes:
         outcome.problem = outcome.problem or _problem(outcome, selection.loose)
-    _optimize(obj, objects, [outcome for outcome in outcomes if not outcome.problem], settings)
-    part = Part(obj, outcomes, [], mirrored=len(edges) > len(selection.edges))
+    return Part(obj, outcomes, [], len(edges) > len(selection.edges), asymmetric=mirror and images is None)
+
+
+def note_warnings(part):
+    """What the user should know about how the object is measured, where anything was."""
     if part.done():
-        part.warnings = _warnings(obj) + [report.not_mirrored(obj.name)] * (mirror and images is None)
-    return part
+        part.warnings = _warnings(part.obj) + [report.not_mirrored(part.obj.name)] * part.asymmetric
 
 
 def _outcomes(place, edges, face_mode):
@@ -63,7 +94,6 @@ def _outcomes(place, edges, face_mode):
 
 
 def _warnings(obj):
-    """What the user should know about how the object is measured."""
     warnings = []
     if mesh_access.is_unevenly_scaled(obj):
         warnings.append(report.uneven_scale(obj.name))
@@ -82,30 +112,20 @@ def _problem(outcome, loose_edges):
     return ""
 
 
-def _optimize(obj, objects, outcomes, settings):
-    """Gives each outcome its result, or the problem that keeps it from one."""
+def _fill_in(surface, outcomes, settings, progress):
+    """Optimizes all together. Where one of them cannot be a contour, that one is left out and the others go on."""
     if not outcomes:
         return
-    try:
-        _fill_in(api.surface_of(obj, beside=objects), outcomes, settings)
-    except ValueError as error:
-        for outcome in outcomes:
-            outcome.problem = str(error)
-
-
-def _fill_in(surface, outcomes, settings):
-    """Optimizes all together. Where one of them cannot be a contour, that one is left out and the others go on."""
     vertices, closed = [outcome.vertices for outcome in outcomes], [outcome.closed for outcome in outcomes]
     try:
-        results = api.optimize_all_on(surface, vertices, closed=closed, **settings)
+        results = api.optimize_all_on(surface, vertices, closed=closed, progress=progress, **settings)
     except ValueError:
         for outcome in outcomes:
             outcome.problem = api.problem_on(surface, outcome.vertices, closed=outcome.closed)
         sound = [outcome for outcome in outcomes if not outcome.problem]
         if len(sound) == len(outcomes):
             raise
-        if sound:
-            _fill_in(surface, sound, settings)
+        _fill_in(surface, sound, settings, progress)
         return
     for outcome, result in zip(outcomes, results):
         outcome.result = result

@@ -215,11 +215,10 @@ def test_nothing_moves_nothing_changes(mesh, labels, hidden):
 # ---- the search
 
 
-def optimize(mesh, topology, marked, **settings):
+def optimize(mesh, topology, marked, chosen=None, **settings):
     return networks.optimize(
-        lambda: surface_of(mesh, hidden_faces=np.flatnonzero(hidden_mask(topology))),
-        topology,
-        marked,
+        surface_of(mesh, hidden_faces=np.flatnonzero(hidden_mask(topology))),
+        networks.make_network(topology, marked, chosen),
         **{"width": 3, "min_salience": 0.0} | settings,
     )
 
@@ -451,6 +450,7 @@ def test_contours_at_vertices_that_are_not_manifold_are_named():
 def test_a_network_of_single_edges_needs_no_surface():
     mesh = meshes.polygon_mesh(*open_sheet(3, 3))
     topology = topology_of(mesh)
-    plan = networks.optimize(None, topology, networks.label_borders(topology, np.array([0, 1, 2, 3])))
+    borders = networks.label_borders(topology, np.array([0, 1, 2, 3]))
+    plan = networks.optimize(None, networks.make_network(topology, borders))
     assert not plan.changed
     assert (len(plan.old_edges()), len(plan.new_edges())) == (0, 0)
