@@ -138,9 +138,16 @@ class MESH_OT_optimize_contour(ContourSettings, ContourOutput, SearchInEditMode,
     bl_idname = "mesh.optimize_contour"
     bl_label = "Optimize Contour"
 
+    close: BoolProperty(
+        name="Close Chains",
+        description="Close each open chain of edges round the limb that it lies on before it is optimized, so that a "
+        "quarter of a loop is enough. Stay Near then holds the contour near the loop so closed",
+        default=False,
+    )
+
     def read(self, context):
         wish = self.wish(context)
-        return selection.read_parts(context.objects_in_mode_unique_data, wish.face_mode), wish
+        return selection.read_parts(context.objects_in_mode_unique_data, wish.face_mode, self.close), wish
 
     def search(self, work):
         parts, settings = work[0], self.settings()

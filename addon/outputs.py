@@ -79,7 +79,7 @@ def _parting_problem(outcome, beside, leaving, wish):
 
 def changes_anything(parts, wish):
     """Whether the output differs from what is there: a contour that stays is selected already, as given."""
-    done = [(outcome, part.mirrored) for part in parts for outcome in part.done()]
+    done = [(outcome, part.mirrored or outcome.closing) for part in parts for outcome in part.done()]
     flags_or_topology = wish.output not in ("SELECT", "CUT")
     return any(flags_or_topology or added or outcome.result.status != "unchanged" for outcome, added in done)
 

@@ -46,6 +46,7 @@ def draw_settings(layout, settings):
     layout.use_property_split = True
     layout.use_property_decorate = False
     layout.prop(settings, "output")
+    _draw_properties(layout, settings, ("close",))
     row = layout.row()
     row.enabled = settings.output in ("SEAM", "SHARP")
     row.prop(settings, "keep_old")

@@ -23,6 +23,7 @@ class Outcome:
     edges: np.ndarray  # as selected, (n, 2) vertex pairs
     vertices: np.ndarray | None = None  # in order, where the edges do not branch
     closed: bool = True
+    closing: bool = False  # an open chain as selected, which is closed first
     result: object = None
     problem: str = ""
     leaving: tuple = ()  # where parts are to be separated: whether on the left, for each side that leaves
@@ -53,6 +54,13 @@ def _left(outcomes, left):
 
 def single_edge(vertices):
     return f"a single edge, {vertices[0]}-{vertices[-1]}, has nothing to move between its ends; select a longer chain"
+
+
+def meets_another(vertices):
+    return (
+        f"the open chain from vertex {vertices[0]} to {vertices[-1]}, once closed, would meet another contour; "
+        "select one chain or loop for each limb"
+    )
 
 
 def inseparable(outcome):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from . import api, contours, jobs, mesh_access, report
+from . import api, contours, jobs, mesh_access, native, report
 
 
 @dataclass
@@ -39,9 +39,12 @@ class Part:
             outcome.problem = str(error)
 
 
-def read_parts(objects, face_mode):
-    """A Part for each object, with an outcome for each connected piece of its selection; nothing is optimized yet."""
-    parts = [read_part(obj, face_mode) for obj in objects]
+def read_parts(objects, face_mode, close=False):
+    """A Part for each object, with an outcome for each connected piece of its selection; nothing is optimized yet.
+
+    With `close`, chains of edges are to be closed first.
+    """
+    parts = [read_part(obj, face_mode, close) for obj in objects]
     for part in parts:
         if part.sound():
             try:
@@ -55,13 +58,14 @@ def optimize_parts(parts, settings, progress=None):
     """Gives each outcome its result, or the problem that keeps it from one. Without bpy, for any thread."""
     searched = [part for part in parts if part.surface]
     for i, part in enumerate(searched):
+        _close(part.surface, part.sound())
         try:
             _fill_in(part.surface, part.sound(), settings, jobs.share_of(progress, i, len(searched)))
         except ValueError as error:
             part.fail(error)
 
 
-def read_part(obj, face_mode):
+def read_part(obj, face_mode, close=False):
     """One object's share of the selection."""
     mesh_access.synchronize(obj)
     selection = mesh_access.read_selection(obj, face_mode)
@@ -70,6 +74,7 @@ def read_part(obj, face_mode):
     edges = selection.edges if images is None else images
     outcomes = _outcomes(obj.name, edges, face_mode)
     for outcome in outcomes:
+        outcome.closing = close and not face_mode and not outcome.closed
         outcome.problem = outcome.problem or _problem(outcome, selection.loose)
     return Part(obj, outcomes, [], len(edges) > len(selection.edges), asymmetric=mirror and images is None)
 
@@ -107,9 +112,27 @@ def _problem(outcome, loose_edges):
     loose = contours.common_edges(outcome.edges, loose_edges)
     if len(loose):
         return report.loose(loose, outcome.closed)
-    if len(outcome.edges) == 1:
+    if len(outcome.edges) == 1 and not outcome.closing:
         return report.single_edge(outcome.vertices)
     return ""
+
+
+def _close(surface, outcomes):
+    """Closes the chains that are to be closed. Loops that meet are no contours beside each other: the first has it."""
+    taken = {vertex for outcome in outcomes if not outcome.closing for vertex in outcome.vertices.tolist()}
+    for outcome in outcomes:
+        if not outcome.closing:
+            continue
+        try:
+            loop = native.module().close_contour(surface, outcome.vertices)
+        except ValueError as error:
+            outcome.problem = str(error)
+            continue
+        if taken.isdisjoint(loop.tolist()):
+            outcome.vertices, outcome.closed = loop, True
+            taken.update(loop.tolist())
+        else:
+            outcome.problem = report.meets_another(outcome.vertices)
 
 
 def _fill_in(surface, outcomes, settings, progress):

@@ -87,7 +87,7 @@ def test_several_searches_share_one_progress():
 
 
 class Contour(operators.ContourOutput, operators.SearchInEditMode):
-    output, keep_old, fill_holes, merge = "SEAM", False, False, 0.0
+    output, keep_old, fill_holes, merge, close = "SEAM", False, False, 0.0, False
 
 
 class Seams(network_operators.NetworkOperator):

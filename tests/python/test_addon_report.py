@@ -49,6 +49,7 @@ def test_problems_name_their_elements():
     assert "at vertex 7;" in report.branching([7])
     assert "at vertices 1, 2, 3 and 6 more;" in report.branching(list(range(1, 10)))
     assert "(1-2, 2-3)" in report.loose([(1, 2), (2, 3)])
+    assert "from vertex 4 to 9, once closed, would meet another" in report.meets_another([4, 5, 9])
     ring, strand = report.Outcome.of("Ring", [3, 4, 5], True), report.Outcome.of("Ring", [3, 4, 5], False)
     assert "the loop through vertex 3 does not separate" in report.inseparable(ring)
     assert "from vertex 3 to 5 does not separate" in report.inseparable(strand)
