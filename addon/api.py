@@ -8,22 +8,68 @@
 The settings are those of `parameters.SETTINGS`. Bad input raises a ValueError that names the elements.
 """
 
-from . import mesh_access, native, parameters
+from . import mesh_access, native, networks, parameters, seams, segmentation
 
 _kept = {}  # mesh name -> (MeshArrays, Surface), of the meshes of the last call
 
 
-def optimize_contour(obj, vertices, **settings):
-    """The minimum ratio contour near a closed one, given by its vertices in order; the mesh stays as it is."""
+def optimize_contour(obj, vertices, closed=True, close=False, **settings):
+    """The minimum ratio contour near a given one, given by its vertices in order; the mesh stays as it is.
+
+    With `close`, the vertices are a chain, a quarter of a loop or more, that is closed round its limb first. The
+    setting `anchor` says how strongly the result is held near the loop so closed; 0: not at all.
+    """
     mesh_access.synchronize(obj)
-    return optimize_on(surface_of(obj), vertices, **settings)
+    return optimize_on(surface_of(obj), vertices, closed=closed, close=close, **settings)
 
 
-def optimize_on(surface, vertices, **settings):
+def optimize_on(surface, vertices, closed=True, close=False, **settings):
     """The same on a native surface."""
+    if close:
+        vertices, closed = native.module().close_contour(surface, vertices), True
+    return optimize_all_on(surface, [vertices], closed=closed, **settings)[0]
+
+
+def optimize_all_on(surface, contours, closed=True, progress=None, **settings):
+    """Several contours of a native surface together, which never cross; `closed` is one for all or one for each.
+
+    `progress` is called with the share done; an exception that it raises passes through.
+    """
     mrc = native.module()
     options = mrc.Options(**parameters.native_options(**settings))
-    return mrc.optimize(surface, vertices, closed=True, options=options)
+    return mrc.optimize_all(surface, contours, closed=closed, options=options, progress=progress)
+
+
+def problem_on(surface, vertices, closed=True):
+    """Why these vertices are no contour that could be optimized, in words; empty where they are one."""
+    return native.contour_problem(surface, vertices, closed)
+
+
+def optimize_seams(obj, selected_only=False, apply=False, **settings):
+    """Optimizes all seams of a mesh, or those among its selected edges; with apply they move there.
+
+    The settings are those of `parameters.NETWORK`. Returns the native results, one for each chain between junctions and
+    each closed loop that could move.
+    """
+    mesh_access.synchronize(obj)
+    plan = _plan(obj, seams.read_network(obj, selected_only), settings)
+    if apply and plan.changed:
+        seams.write(obj, plan)
+    return list(plan.taken_results().values())
+
+
+def optimize_segmentation(obj, source="FACE_SETS", attribute="", apply=False, **settings):
+    """Optimizes the borders between the regions of a labelling; with apply the labels move with them.
+
+    source: FACE_SETS, MATERIAL or ATTRIBUTE; an attribute's name alone is enough.
+    Returns the native results, as optimize_seams does, and takes the same settings.
+    """
+    mesh_access.synchronize(obj)
+    labelling = segmentation.read_labelling(obj, "ATTRIBUTE" if attribute else source, attribute)
+    plan = _plan(obj, segmentation.read_network(obj, labelling), settings)
+    if apply and plan.changed:
+        segmentation.write(obj, labelling, plan)
+    return list(plan.taken_results().values())
 
 
 def surface_of(obj, beside=()):
@@ -43,9 +89,25 @@ def surface_of(obj, beside=()):
     return _kept[name][1]
 
 
+def are_current(surfaces):
+    """Whether pairs of an object and its surface still belong together: the meshes are as they were, in Edit Mode."""
+    try:
+        for obj, surface in surfaces:
+            mesh_access.synchronize(obj)
+            if surface_of(obj, beside=[other for other, _ in surfaces]) is not surface:
+                return False
+    except ReferenceError:  # an object that was deleted
+        return False
+    return True
+
+
 def forget():
     """Drops the surfaces that are kept."""
     _kept.clear()
+
+
+def _plan(obj, network, settings):
+    return networks.optimize(surface_of(obj) if network.movable else None, network, **settings)
 
 
 def _forget_others(names):

@@ -5,6 +5,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+_MIRROR_TOLERANCE = 2e-5  # as Blender's own
+
 
 @dataclass(frozen=True)
 class SelectedContours:
@@ -21,7 +23,7 @@ def sort_edges(edges):
     vertices, ends = np.unique(edges, return_inverse=True)
     ends = ends.reshape(-1, 2)
     degrees = np.bincount(ends.ravel(), minlength=len(vertices))
-    labels = _component_labels(ends, len(vertices))
+    labels = component_labels(ends, len(vertices))
     branching = np.unique(labels[degrees > 2])
     open_ended = np.setdiff1d(labels[degrees == 1], branching)
     closed = np.setdiff1d(labels, np.union1d(branching, open_ended))
@@ -49,6 +51,35 @@ def contour_edges(vertices, closed=True):
     return pairs if closed else pairs[:-1]
 
 
+def along(vertices, directed_edges, closed=True):
+    """A loop or chain in the direction of the (n, 2) edges that it was sorted from, going by its first."""
+    first, second = vertices[:2]
+    if np.any((directed_edges[:, 0] == first) & (directed_edges[:, 1] == second)):
+        return vertices
+    return np.roll(vertices[::-1], 1) if closed else vertices[::-1]
+
+
+def with_mirror_images(edges, points, visible_edges, tolerance=_MIRROR_TOLERANCE):
+    """The (n, 2) edges and, turned round, their images across x = 0; None where an image is missing or in the way.
+
+    Turned round, what lay to the left of an edge lies to the left of its image.
+    """
+    vertices, ends = np.unique(edges, return_inverse=True)
+    images = _mirror_images(points, vertices, tolerance)[ends].reshape(-1, 2)[:, ::-1]
+    if np.any(images < 0) or len(common_edges(images, _among(visible_edges, images))) < len(images):
+        return None
+    own = {frozenset(pair) for pair in edges.tolist()}
+    both = np.concatenate([edges, images[[frozenset(pair) not in own for pair in images.tolist()]]])
+    return both if len(sort_edges(both).branching) <= len(sort_edges(edges).branching) else None
+
+
+def common_edges(edges, others):
+    """Those of the (n, 2) edges that are among the others, in either direction."""
+    edges, others = (np.asarray(pairs).reshape(-1, 2) for pairs in (edges, others))
+    known = {frozenset(pair) for pair in others.tolist()}
+    return edges[[frozenset(pair) in known for pair in edges.tolist()]]
+
+
 def region_border(face_offsets, corner_edges, selected, hidden, edge_count):
     """The edges between a selected face and one that is visible and not selected.
 
@@ -62,16 +93,35 @@ def region_border(face_offsets, corner_edges, selected, hidden, edge_count):
     return np.flatnonzero(inside & outside)
 
 
-def _component_labels(ends, count):
-    """The lowest vertex of each vertex's connected piece: the lower root takes the other, until nothing moves."""
+def _among(edges, some):
+    """Those of many edges whose ends both occur in some others."""
+    return edges[np.isin(edges, some).all(axis=1)]
+
+
+def _mirror_images(points, vertices, tolerance):
+    """For each of the vertices the point at its image across x = 0; -1 where there is none."""
+    order = np.argsort(points[:, 0], kind="stable")
+    sorted_x = points[order, 0]
+    images = []
+    for target in points[vertices] * (-1, 1, 1):
+        first, last = np.searchsorted(sorted_x, (target[0] - tolerance, target[0] + tolerance))
+        near = order[first:last]
+        distances = np.linalg.norm(points[near] - target, axis=1)
+        images.append(near[np.argmin(distances)] if np.any(distances <= tolerance) else -1)
+    return np.array(images, dtype=np.int32)
+
+
+def component_labels(ends, count):
+    """The lowest member of each one's connected piece: the lower root takes the other, until nothing moves."""
     labels = np.arange(count)
-    while True:
+    while len(ends):
         roots = labels[ends]
-        if np.array_equal(roots[:, 0], roots[:, 1]):
-            return labels
+        apart = roots[:, 0] != roots[:, 1]
+        ends, roots = ends[apart], roots[apart]
         np.minimum.at(labels, roots.max(axis=1), roots.min(axis=1))
         while not np.array_equal(labels, labels[labels]):
             labels = labels[labels]
+    return labels
 
 
 def _neighbour_pairs(ends, degrees):

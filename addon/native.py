@@ -34,6 +34,15 @@ def problem():
     return ""
 
 
+def contour_problem(surface, vertices, closed=True):
+    """Why these vertices are no contour that could be optimized, in words; empty where they are one."""
+    try:
+        module().measure(surface, vertices, closed=closed)
+    except ValueError as error:
+        return str(error)
+    return ""
+
+
 def _import():
     """A legacy add-on has the module in its own folder, an extension in the wheels that it brings."""
     names = ((".mrcontour", __package__), ("mrcontour", None))

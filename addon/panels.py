@@ -46,24 +46,42 @@ def draw_settings(layout, settings):
     layout.use_property_split = True
     layout.use_property_decorate = False
     layout.prop(settings, "output")
+    _draw_properties(layout, settings, ("close",))
     row = layout.row()
-    row.enabled = settings.output != "SELECT"
+    row.enabled = settings.output in ("SEAM", "SHARP")
     row.prop(settings, "keep_old")
+    row = layout.row()
+    row.enabled = settings.output in ("RIP", "SEPARATE")
+    row.prop(settings, "fill_holes")
+    draw_search_settings(layout, settings)
+
+
+def draw_search_settings(layout, settings):
+    """Those that say where and how is searched."""
     row = layout.row()
     row.enabled = not settings.whole_surface
     row.prop(settings, "width")
     row = layout.row()
     row.use_property_split = False  # beside a split the name would not fit into a sidebar of the usual width
     row.prop(settings, "whole_surface")
-    for name in MAIN:
-        layout.prop(settings, name)
+    _draw_properties(layout, settings, MAIN)
 
 
 def draw_more_settings(layout, settings):
     layout.use_property_split = True
     layout.use_property_decorate = False
-    for name in MORE:
-        layout.prop(settings, name)
+    _draw_properties(layout, settings, MORE)
+    if hasattr(settings, "merge"):
+        row = layout.row()
+        row.enabled = settings.refinement > 0
+        row.prop(settings, "merge")
+
+
+def _draw_properties(layout, settings, names):
+    """Those that the operator has."""
+    for name in names:
+        if hasattr(settings, name):
+            layout.prop(settings, name)
 
 
 class VIEW3D_PT_minimum_ratio_contours(bpy.types.Panel):

@@ -29,6 +29,22 @@ SETTINGS = {
         "min": 0.0,
         "soft_max": 2.0,
     },
+    "refinement": {
+        "name": "Refinement",
+        "description": "How many points on each edge the contour may pass through besides its ends, so that it runs "
+        "across faces; 0: along edges only, so that no face is ever cut",
+        "default": 0,
+        "min": 0,
+        "soft_max": 5,
+        "max": 16,
+    },
+    "regular_iterations": {
+        "name": "Along Edges First",
+        "description": "With refinement: how often to search along edges before searching across faces",
+        "default": 2,
+        "min": 0,
+        "max": 64,
+    },
     "iterations": {
         "name": "Iterations",
         "description": "How often to search again from the contour found; ends early where nothing moves",
@@ -100,23 +116,64 @@ SETTINGS = {
         ),
         "default": "HARMONIC",
     },
+    "ends": {
+        "name": "Ends",
+        "description": "What stays where it is at the ends of an open chain",
+        "items": (
+            ("EDGES", "Edges", "The first and the last edge, so that the chain leaves its ends as it was drawn"),
+            ("VERTICES", "Vertices", "The end vertices alone"),
+            ("BORDER", "Slide on Border", "The end vertices; but those on the border of the mesh slide along it"),
+        ),
+        "default": "EDGES",
+    },
 }
 
-MAIN = ("iterations", "length_bias", "anchor")  # besides the width; the others are for those who look for them
-MORE = ("reach", "length_floor", "crease", "feature_clamp", "min_salience", "max_turn", "flow")
+# Networks run along edges, since what they bound are whole faces, and where their ends may go is settled.
+NETWORK = tuple(name for name in SETTINGS if name not in ("refinement", "regular_iterations", "ends"))
+
+# Besides the width; the others are for those who look for them.
+MAIN = (
+    "refinement",
+    "iterations",
+    "length_bias",
+    "anchor",
+)
+MORE = (
+    "reach",
+    "length_floor",
+    "crease",
+    "feature_clamp",
+    "min_salience",
+    "max_turn",
+    "flow",
+    "ends",
+    "regular_iterations",
+)
 
 
 def native_options(**settings):
     """The keyword arguments of mrcontour.Options for settings of the table; the others take the table's defaults."""
-    unknown = sorted(settings.keys() - SETTINGS.keys())
-    if unknown:
-        raise TypeError(f"unknown settings: {', '.join(unknown)}; there are {', '.join(SETTINGS)}")
+    _refuse_unknown(settings, SETTINGS)
     values = {name: row["default"] for name, row in SETTINGS.items()} | settings
-    plain = ("iterations", "length_bias", "length_floor", "anchor", "crease", "max_turn")
+    plain = ("refinement", "iterations", "length_bias", "length_floor", "anchor", "crease", "max_turn")
     return {name: values[name] for name in plain} | {
         "width": None if values["whole_surface"] else values["width"],
         "band_distance": values["reach"] if values["reach"] > 0 and not values["whole_surface"] else None,
         "feature_clamp": values["feature_clamp"] if values["feature_clamp"] < 1 else None,
         "min_salience": values["min_salience"] if values["min_salience"] > 0 else None,
         "flow": values["flow"].lower(),
+        "ends": values["ends"].lower(),
+        "regular_iterations": values["regular_iterations"] if values["refinement"] > 0 else 0,
     }
+
+
+def network_options(**settings):
+    """The same for networks, which take the settings of NETWORK."""
+    _refuse_unknown(settings, NETWORK)
+    return native_options(refinement=0, ends="BORDER", **settings)
+
+
+def _refuse_unknown(settings, known):
+    unknown = sorted(settings.keys() - set(known))
+    if unknown:
+        raise TypeError(f"unknown settings: {', '.join(unknown)}; there are {', '.join(known)}")

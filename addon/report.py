@@ -5,36 +5,102 @@ from dataclasses import dataclass
 
 import numpy as np
 
-NOTHING_SELECTED = "Nothing to optimize: select a closed loop of edges, or faces in face mode to use their borders"
+from .contours import contour_edges
+
+NOTHING_SELECTED = (
+    "Nothing to optimize: select closed loops or open chains of edges, or faces in face mode to use their borders"
+)
+CANCELLED = "Cancelled: everything is as it was"
+CHANGED_MEANWHILE = "The mesh was changed during the search, so that nothing was written; run it again"
 _NAMED = 3  # of several alike, only so many are named
 
 
-@dataclass(frozen=True)
+@dataclass
 class Outcome:
     """One contour of the selection: its native result, or the problem for which it was left as it is."""
 
     place: str  # the object's name
     edges: np.ndarray  # as selected, (n, 2) vertex pairs
+    vertices: np.ndarray | None = None  # in order, where the edges do not branch
+    closed: bool = True
+    closing: bool = False  # an open chain as selected, which is closed first
     result: object = None
     problem: str = ""
+    leaving: tuple = ()  # where parts are to be separated: whether on the left, for each side that leaves
+
+    @classmethod
+    def of(cls, place, vertices, closed, **found):
+        return cls(place, contour_edges(vertices, closed), vertices, closed, **found)
 
 
-def summary(outcomes):
-    """One line for the status bar: what improved, what did not and why, the ratios, and what was left out."""
-    results = [outcome.result for outcome in outcomes if outcome.result is not None]
+def summary(outcomes, notes=()):
+    """One line for the status bar: what improved, what did not and why, the ratios, what was left out, and notes."""
+    results = [outcome.result for outcome in outcomes if outcome.result is not None and not outcome.problem]
     sentences = []
     if results:
         sentences = [_statuses(results), _ratios(results)]
-    left = [outcome for outcome in outcomes if outcome.result is None]
+    left = [outcome for outcome in outcomes if outcome.problem]
     if left:
-        several_places = len({outcome.place for outcome in outcomes}) > 1
-        texts = [f"{outcome.place}: {outcome.problem}" if several_places else outcome.problem for outcome in left]
-        sentences.append("Left as it is: " + shortened(texts, "; "))
-    return ". ".join(sentences)
+        sentences.append(_left(outcomes, left))
+    return ". ".join([*sentences, *dict.fromkeys(notes)])
 
 
-def open_chain(vertices):
-    return f"an open chain from vertex {vertices[0]} to {vertices[-1]}, only closed loops can be optimized"
+def _left(outcomes, left):
+    """What was left as it is, and where; alike once."""
+    several_places = len({outcome.place for outcome in outcomes}) > 1
+    texts = [f"{outcome.place}: {outcome.problem}" if several_places else outcome.problem for outcome in left]
+    return "Left as it is: " + shortened(list(dict.fromkeys(texts)), "; ")
+
+
+def single_edge(vertices):
+    return f"a single edge, {vertices[0]}-{vertices[-1]}, has nothing to move between its ends; select a longer chain"
+
+
+def meets_another(vertices):
+    return (
+        f"the open chain from vertex {vertices[0]} to {vertices[-1]}, once closed, would meet another contour; "
+        "select one chain or loop for each limb"
+    )
+
+
+def inseparable(outcome):
+    if outcome.closed:
+        return (
+            f"the loop through vertex {outcome.vertices[0]} does not separate the mesh: it runs round a handle; "
+            "select a second loop round it too, or use Cut or Seam"
+        )
+    return (
+        f"the open chain from vertex {outcome.vertices[0]} to {outcome.vertices[-1]} does not separate the mesh; "
+        "extend it to the mesh border or to a loop, or use Rip"
+    )
+
+
+def hidden_part(outcome):
+    return (
+        f"the part beyond the contour through vertex {outcome.vertices[0]} is partly hidden and would not come along; "
+        "reveal it first (Alt H)"
+    )
+
+
+def uneven_scale(place):
+    return f"{place} is scaled unevenly or mirrored, and is measured without it; to count it, apply it (Ctrl A > Scale)"
+
+
+def not_mirrored(place):
+    return f"X Mirror is on, but {place} is not symmetric here, so that only what is selected moved"
+
+
+def inside_out(place):
+    return (
+        f"The normals of {place} point inward, so that grooves count as ridges: "
+        "Mesh > Normals > Recalculate Outside (Shift N)"
+    )
+
+
+def linked(obj):
+    return (
+        f"{obj.name} is linked from another file and read only: make it local first (Object > Relations > Make Local)"
+    )
 
 
 def branching(vertices):
@@ -42,8 +108,10 @@ def branching(vertices):
     return f"a selection that branches at {noun} {shortened(vertices)}; select single loops, or faces in face mode"
 
 
-def loose(edges):
-    return f"a loop with loose edges that no face uses ({shortened([f'{a}-{b}' for a, b in edges])})"
+def loose(edges, closed=True):
+    noun = "a loop" if closed else "an open chain"
+    names = shortened([f"{a}-{b}" for a, b in edges])
+    return f"{noun} with loose edges that no face uses ({names}); select edges of faces only"
 
 
 def shortened(items, separator=", "):
@@ -77,3 +145,50 @@ def _ratios(results):
     before = np.mean([result.initial_ratio for result in results])
     after = np.mean([result.ratio for result in results])
     return f"{'Ratio' if len(results) == 1 else 'Mean ratio'} {before:.4g} to {after:.4g}"
+
+
+# ---- networks
+
+
+def network_outcomes(place, plan, why_lost):
+    """What became of each chain of a network that could have moved; why_lost explains a region that would be lost."""
+    taken = plan.taken_results()
+    outcomes = []
+    for i, chain in enumerate(plan.chains):
+        if i in taken:
+            outcomes.append(Outcome.of(place, chain.vertices, chain.closed, result=taken[i]))
+        elif chain.movable:
+            problem = plan.problems.get(i) or why_lost(plan.settlement.lost.get(i, -1))
+            outcomes.append(Outcome.of(place, chain.vertices, chain.closed, problem=problem))
+    return outcomes
+
+
+def network_summary(outcomes, noun):
+    """One line for the status bar: how many moved, the ratios, and what was left out and why."""
+    results = [outcome.result for outcome in outcomes if outcome.result is not None]
+    left = [outcome for outcome in outcomes if outcome.result is None]
+    moved = sum(result.status == "improved" for result in results)
+    sentences = []
+    if moved:
+        sentences = [f"{moved} of {len(outcomes)} {noun} moved", _ratios(results)]
+    elif results:
+        sentences = [f"No better place was found for the {noun}"]
+    if left:
+        sentences.append(_left(outcomes, left))
+    return ". ".join(sentences)
+
+
+def lost_region(labels, region):
+    if region < 0:
+        return "a border whose move would join or split regions"
+    return f"the borders of region {labels[region]}, which is too thin to keep otherwise"
+
+
+def no_face_sets():
+    return "there are no face sets: make some in Sculpt Mode, or choose another source"
+
+
+def no_attribute(name):
+    if not name:
+        return "no attribute is named: choose an integer attribute of the faces"
+    return f"there is no integer attribute '{name}' of the faces: convert it, or choose another one"

@@ -3,6 +3,7 @@
 #include "inputs.h"
 #include "results.h"
 
+#include <mrc/close.h>
 #include <mrc/optimize.h>
 
 #include <pybind11/stl.h>
@@ -52,6 +53,16 @@ mrc::Measure measure(const Surface& surface, const py::object& vertices, bool cl
     const mrc::Wishes wishes = to_wishes(py::tuple(), py::tuple(), attractors, py::tuple(), density);
     const py::gil_scoped_release release;
     return mrc::measure(surface, contour, options, wishes, scales);
+}
+
+Integers close_contour(const Surface& surface, const py::object& vertices) {
+    const mrc::Contour chain = to_contour(vertices, false, py::none(), py::none());
+    mrc::Contour loop;
+    {
+        const py::gil_scoped_release release;
+        loop = mrc::close_contour(surface, chain);
+    }
+    return contour_vertices(loop);
 }
 
 struct PyCurvature {
@@ -237,6 +248,14 @@ void bind_functions(py::module_& module) {
                py::arg("options") = defaults, py::arg("attractors") = nothing, py::arg("region_density") = py::none(),
                py::arg("scales") = py::none(), py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
                "The ratio of a contour, without optimising (eq. 3.3).");
+    module.def(
+        "close_contour", &close_contour, py::arg("surface"), py::arg("vertices"),
+        "Closes an open chain round the limb that it lies on, so that part of a loop drawn by hand is enough.\n\n"
+        "vertices: (N,) ids along mesh edges, from one end to the other, at least two. A quarter of a loop nearly always\n"
+        "finds the limb.\n"
+        "Returns (n,) int32: the closed contour, which begins with the chain. The way back is the path that is cheapest where\n"
+        "the surface is far from the chain and faces away from it (Lee et al. 2004). Give it to optimize. Raises ValueError\n"
+        "where nothing leads round, as on a plane.");
     module.def("curvature", &curvature, py::arg("surface"), py::arg("options") = defaults, py::arg("scales") = py::none(),
                "The curvatures at all vertices; without scales, h is the surface's mean edge length.");
     module.def("band", &band, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true,

@@ -34,6 +34,15 @@ void for_each_face(const Surface& surface, int vertex, Visit&& visit) {
     }
 }
 
+/// The polygon's unit normal times its angle at the vertex.
+Vec3 weighted_normal(const Surface& surface, int face, int vertex) {
+    const auto corners = surface.face(face);
+    const auto i = static_cast<std::size_t>(std::ranges::find(corners, vertex) - corners.begin());
+    const Vec3 area = polygon_area_vector(surface, face);
+    const double size = area.norm();
+    return size > 0.0 ? Vec3((corner_angle(surface, corners, i) / size) * area) : Vec3(Vec3::Zero());
+}
+
 }  // namespace
 
 Vec3 polygon_area_vector(const Surface& surface, int face) {
@@ -52,6 +61,12 @@ double vertex_area(const Surface& surface, int vertex) {
         area += polygon_area_vector(surface, face).norm() / static_cast<double>(surface.face(face).size());
     });
     return area;
+}
+
+Vec3 vertex_normal(const Surface& surface, int vertex) {
+    Vec3 sum = Vec3::Zero();
+    for_each_face(surface, vertex, [&](int face) { sum += weighted_normal(surface, face, vertex); });
+    return sum.norm() > 1e-12 ? Vec3(sum.normalized()) : Vec3(Vec3::UnitZ());
 }
 
 namespace {
@@ -178,7 +193,7 @@ class CurvatureField::Impl {
         curvatures_.reserve(curvatures_.size() + fresh.size());
         for (std::size_t i = 0; i < fresh.size(); ++i) {
             if (beat && i % 64 == 0) beat();
-            curvatures_.push_back(principal(smoothed(fresh[i]), vertex_normal(near_.vertex(fresh[i]))));
+            curvatures_.push_back(principal(smoothed(fresh[i]), vertex_normal(surface_, near_.vertex(fresh[i]))));
             place_[fresh[i]] = static_cast<int>(curvatures_.size()) - 1;
         }
     }
@@ -224,21 +239,6 @@ class CurvatureField::Impl {
         }
         // What the disks share of so many vertices takes more room from now on than it saves time.
         if (missing.size() > many) disks_ = DiskTensors(surface_, radius_);
-    }
-
-    Vec3 vertex_normal(int vertex) const {
-        Vec3 sum = Vec3::Zero();
-        for_each_face(surface_, vertex, [&](int face) { sum += weighted_normal(face, vertex); });
-        return sum.norm() > 1e-12 ? Vec3(sum.normalized()) : Vec3(Vec3::UnitZ());
-    }
-
-    /// The polygon's unit normal times its angle at the vertex.
-    Vec3 weighted_normal(int face, int vertex) const {
-        const auto corners = surface_.face(face);
-        const auto i = static_cast<std::size_t>(std::ranges::find(corners, vertex) - corners.begin());
-        const Vec3 area = polygon_area_vector(surface_, face);
-        const double size = area.norm();
-        return size > 0.0 ? Vec3((corner_angle(surface_, corners, i) / size) * area) : Vec3(Vec3::Zero());
     }
 
     /// The tensors round a vertex, averaged term by term (Alliez et al. 2003).

@@ -6,18 +6,19 @@
 namespace mrc {
 
 DistanceField::DistanceField(const Surface& surface, const Contour& contour) : surface_(surface) {
-    for (const SurfacePoint& p : contour.points) {
+    for (int i = 0; const SurfacePoint& p : contour.points) {
         const double length = (surface.position(p.b) - surface.position(p.a)).norm();
-        reach(p.a, p.t * length);
-        if (!p.is_vertex()) reach(p.b, (1.0 - p.t) * length);
+        reach(p.a, {p.t * length, i});
+        if (!p.is_vertex()) reach(p.b, {(1.0 - p.t) * length, i});
+        ++i;
     }
 }
 
-void DistanceField::reach(int vertex, double distance) const {
-    const auto [entry, fresh] = best_.emplace(vertex, distance);
-    if (!fresh && distance >= entry->second) return;
-    entry->second = distance;
-    queue_.emplace(distance, vertex);
+void DistanceField::reach(int vertex, Way way) const {
+    const auto [entry, fresh] = best_.emplace(vertex, way);
+    if (!fresh && way.length >= entry->second.length) return;
+    entry->second = way;
+    queue_.emplace(way.length, vertex);
 }
 
 bool DistanceField::settle_next() const {
@@ -25,20 +26,27 @@ bool DistanceField::settle_next() const {
         const auto [distance, vertex] = queue_.top();
         queue_.pop();
         if (!settled_.insert(vertex).second) continue;
+        const int point = best_.at(vertex).point;
         surface_.for_each_real_edge(vertex, [&](int neighbour, int) {
-            reach(neighbour, distance + (surface_.position(neighbour) - surface_.position(vertex)).norm());
+            reach(neighbour, {distance + (surface_.position(neighbour) - surface_.position(vertex)).norm(), point});
         });
         return true;
     }
     return false;
 }
 
-double DistanceField::at(int vertex) const {
+bool DistanceField::settle(int vertex) const {
     while (!settled_.contains(vertex)) {
-        if (!settle_next()) return std::numeric_limits<double>::infinity();
+        if (!settle_next()) return false;
     }
-    return best_.at(vertex);
+    return true;
 }
+
+double DistanceField::at(int vertex) const {
+    return settle(vertex) ? best_.at(vertex).length : std::numeric_limits<double>::infinity();
+}
+
+int DistanceField::nearest(int vertex) const { return settle(vertex) ? best_.at(vertex).point : -1; }
 
 std::vector<int> vertices_within(const Surface& surface, std::span<const int> vertices, int rings) {
     std::vector<int> found;

@@ -76,8 +76,8 @@ std::tuple<int, int, long long> place_key(const SurfacePoint& p) {
 void check_distinct(const Contour& contour) {
     const std::size_t least = contour.closed ? 3 : 2;
     if (contour.points.size() < least) {
-        throw InvalidInput("a contour of " + std::to_string(contour.points.size()) + " vertices: a " +
-                           (contour.closed ? "closed" : "open") + " contour needs at least " + std::to_string(least));
+        throw InvalidInput("a contour of " + std::to_string(contour.points.size()) + " vertices: " +
+                           (contour.closed ? "a closed" : "an open") + " contour needs at least " + std::to_string(least));
     }
     std::set<std::tuple<int, int, long long>> seen;
     for (const SurfacePoint& p : contour.points) {
@@ -101,8 +101,8 @@ std::string obstacle(const Surface& surface, int halfedge) {
     return {};
 }
 
-/// What keeps a contour from running along the edge ab, in words; empty: nothing. One usable side is enough: the band then grows
-/// to that side alone.
+}  // namespace
+
 std::string obstacle(const Surface& surface, int a, int b) {
     const int forward = surface.find_halfedge(a, b), backward = surface.find_halfedge(b, a);
     const int halfedge = forward >= 0 ? forward : backward, twin = surface.twin(halfedge);
@@ -110,6 +110,8 @@ std::string obstacle(const Surface& surface, int a, int b) {
     const std::string left = obstacle(surface, halfedge), right = obstacle(surface, twin);
     return left.empty() || right.empty() ? std::string() : left;
 }
+
+namespace {
 
 /// Where on a triangle's border a point lies: side and share of it, as one number from 0 to 3.
 double border_place(const Surface& surface, int triangle, const SurfacePoint& p) {

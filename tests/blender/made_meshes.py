@@ -29,10 +29,10 @@ def pairs(loop, closed=True):
     return list(zip(loop, loop[1:] + loop[:1] if closed else loop[1:]))
 
 
-def grooved_cylinder(name="Cylinder", depth=0.3):
-    """An open cylinder of quads with a groove round ring GROOVE."""
+def grooved_cylinder(name="Cylinder", depth=0.3, grooves=(GROOVE,)):
+    """An open cylinder of quads with a groove round ring GROOVE, or round several."""
     rows = np.arange(RINGS)
-    radii = 1 - depth * np.exp(-((rows - GROOVE) ** 2) / 2)
+    radii = 1 - depth * sum(np.exp(-((rows - groove) ** 2) / 2) for groove in grooves)
     angles = 2 * np.pi * np.arange(SEGMENTS) / SEGMENTS
     round_about = [(np.cos(angle), np.sin(angle)) for angle in angles]
     positions = [(radius * x, radius * y, 0.2 * row) for row, radius in zip(rows, radii) for x, y in round_about]

@@ -28,6 +28,26 @@ def test_edit_mode_sees_what_was_edited_and_changes_nothing():
     assert everything(obj) == before
 
 
+def test_a_quarter_of_a_loop_is_closed_first():
+    obj = grooved_cylinder()
+    result = api.optimize_contour(obj, rough_loop(GROOVE - 3)[5:16], close=True)
+    assert result.status == "improved"
+    assert edge_set(np.asarray(result.vertices).tolist()) == edge_set(ring(GROOVE))
+    with pytest.raises(ValueError, match="at least 2"):
+        api.optimize_contour(obj, [12], close=True)
+
+
+def test_a_surface_is_current_until_its_mesh_changes():
+    objects = grooved_cylinder("First"), grooved_cylinder("Second")
+    surfaces = [(obj, api.surface_of(obj, beside=objects)) for obj in objects]
+    assert api.are_current(surfaces)
+    objects[1].data.vertices[3].co.z += 0.1
+    assert not api.are_current(surfaces)
+    assert api.are_current([(obj, api.surface_of(obj, beside=objects)) for obj in objects])
+    bpy.data.objects.remove(objects[1])
+    assert not api.are_current(surfaces)
+
+
 def test_bad_input_is_named():
     obj = grooved_cylinder()
     with pytest.raises(ValueError, match=str(ring(0)[0])):

@@ -23,6 +23,8 @@ from made_meshes import (
 )
 from minimum_ratio_contours import native
 
+OUTPUTS = ["SELECT", "SEAM", "SHARP", "CUT", "RIP", "SEPARATE"]
+
 
 def cancelled(obj, **properties):
     """Runs the operator, which must cancel and change nothing."""
@@ -32,12 +34,12 @@ def cancelled(obj, **properties):
 
 
 @pytest.mark.parametrize("mode", ["VERTEX", "EDGE", "FACE"])
-@pytest.mark.parametrize("output", ["SELECT", "SEAM", "SHARP"])
+@pytest.mark.parametrize("output", OUTPUTS)
 def test_nothing_selected(mode, output, last, capfd):
     obj = grooved_cylinder()
     edit(obj, mode=mode)
     cancelled(obj, output=output)
-    assert last.message.startswith("Nothing to optimize: select a closed loop")
+    assert last.message.startswith("Nothing to optimize: select closed loops or open chains")
     assert last.message in capfd.readouterr().out
 
 
@@ -51,13 +53,16 @@ def test_one_vertex_selected(last):
     assert last.message.startswith("Nothing to optimize")
 
 
-def test_an_open_chain(last):
+@pytest.mark.parametrize("output", OUTPUTS)
+def test_a_chain_of_one_edge(output, last):
     obj = grooved_cylinder()
     edit(obj)
-    select(obj, pairs(ring(5)[:9], closed=False))
-    cancelled(obj, output="SEAM")
-    ends = f"from vertex {ring(5)[0]} to {ring(5)[8]}"
-    assert last.message == f"Left as it is: an open chain {ends}, only closed loops can be optimized"
+    select(obj, pairs(ring(5)[:2], closed=False))
+    cancelled(obj, output=output)
+    ends = f"{ring(5)[0]}-{ring(5)[1]}"
+    assert last.message == f"Left as it is: a single edge, {ends}, has nothing to move between its ends; " + (
+        "select a longer chain"
+    )
 
 
 def test_everything_selected(last):
@@ -110,13 +115,14 @@ def test_a_mesh_without_faces(last):
     edit(obj)
     bpy.ops.mesh.select_all(action="SELECT")
     cancelled(obj)
-    assert "open chain" in last.message
+    assert "an open chain with loose edges that no face uses (0-1)" in last.message
 
 
-def test_an_empty_mesh():
+def test_an_empty_mesh(last):
     obj = mesh_object("Empty", [])
     edit(obj)
     cancelled(obj)
+    assert last.message.startswith("Nothing to optimize")
 
 
 def without_library(monkeypatch):
@@ -143,6 +149,77 @@ def test_a_library_of_another_version(monkeypatch):
     monkeypatch.setattr(native.module(), "__version__", "0.0.1")
     with pytest.raises(RuntimeError, match="restart Blender"):
         bpy.ops.mesh.optimize_contour()
+
+
+def with_fin():
+    """A triangle that stands on the first edge of ring 5."""
+    obj = grooved_cylinder()
+    edit(obj)
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    tip = bm.verts.new((2, 0, 1))
+    bm.verts.ensure_lookup_table()
+    bm.faces.new([bm.verts[ring(5)[0]], bm.verts[ring(5)[1]], tip])
+    bmesh.update_edit_mesh(obj.data)
+    obj.update_from_editmode()
+    return obj
+
+
+@pytest.mark.parametrize("output", OUTPUTS)
+def test_an_edge_of_three_faces(output, last):
+    obj = with_fin()
+    select(obj, pairs(ring(5)))
+    cancelled(obj, output=output)
+    assert "an edge of more than two faces" in last.message
+    assert any(str(vertex) in last.message for vertex in ring(5)[:2])
+
+
+def test_one_bad_contour_does_not_keep_the_others(last):
+    obj = with_fin()
+    select(obj, pairs(ring(5)) + pairs(rough_loop(GROOVE - 3)))
+    assert bpy.ops.mesh.optimize_contour(output="SEAM") == {"FINISHED"}
+    assert flagged(obj, "seam") == edge_set(ring(GROOVE))
+    assert flagged(obj, "select") == edge_set(ring(GROOVE)) | edge_set(ring(5))
+    assert "an edge of more than two faces" in last.message
+
+
+def cylinder_of_loops():
+    """Every inner ring is selected, so that each keeps the next ones from growing."""
+    obj = grooved_cylinder(depth=0)
+    edit(obj)
+    select(obj, [pair for row in range(1, RINGS - 1) for pair in pairs(ring(row))])
+    return obj
+
+
+@pytest.mark.parametrize("output", ["SELECT", "CUT"])
+def test_nothing_can_grow(output, last):
+    obj = cylinder_of_loops()
+    cancelled(obj, output=output, min_salience=0.0)
+    assert "nothing can grow around the contour" in last.message
+    assert "kept the band back" in last.message
+
+
+def test_where_nothing_can_grow_the_contour_is_output_all_the_same(last):
+    obj = cylinder_of_loops()
+    expected = flagged(obj, "select")
+    assert bpy.ops.mesh.optimize_contour(output="SEAM", min_salience=0.0) == {"FINISHED"}
+    assert flagged(obj, "seam") == expected
+    assert "nothing can grow around the contour" in last.message
+
+
+def test_a_linked_mesh(tmp_path):
+    """Blender has no Edit Mode for it; the message says how to get there."""
+    library = str(tmp_path / "library.blend")
+    bpy.data.libraries.write(library, {grooved_cylinder("Linked")})
+    with bpy.data.libraries.load(library, link=True) as (_, linked):
+        linked.objects = ["Linked"]
+    bpy.context.scene.collection.objects.link(linked.objects[0])
+    bpy.context.view_layer.objects.active = linked.objects[0]
+    try:
+        with pytest.raises(RuntimeError, match="read only: make it local first"):
+            bpy.ops.mesh.optimize_contour()
+    finally:
+        bpy.data.libraries.remove(linked.objects[0].library)
 
 
 def test_object_mode():

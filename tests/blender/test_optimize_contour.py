@@ -22,6 +22,7 @@ from made_meshes import (
     select_faces_below,
     set_flag,
 )
+from minimum_ratio_contours import contours
 
 GROOVE_EDGES = edge_set(ring(GROOVE))
 START = rough_loop(GROOVE - 3)
@@ -104,13 +105,24 @@ def test_an_unchanged_contour_is_output_all_the_same_and_the_report_says_why(las
     assert last.message.startswith("1 contour unchanged (")
 
 
-def test_several_loops_at_once(last):
+def test_several_loops_at_once_move_and_never_cross(last):
+    obj = grooved_cylinder(grooves=(5, 15))
+    edit(obj)
+    select(obj, pairs(rough_loop(4)) + pairs(rough_loop(13)))
+    run(output="SEAM")
+    assert flagged(obj, "seam") == edge_set(ring(5)) | edge_set(ring(15))
+    assert [numbers.status for numbers in last.contours] == ["improved", "improved"]
+    assert last.message.startswith("2 contours improved. Mean ratio ")
+
+
+def test_two_loops_beside_one_groove_do_not_both_take_it():
     obj = start()
     select(obj, pairs(rough_loop(GROOVE + 1)))
     run(output="SEAM")
-    assert flagged(obj, "seam") == GROOVE_EDGES
-    assert [numbers.status for numbers in last.contours] == ["improved", "improved"]
-    assert last.message.startswith("2 contours improved. Mean ratio ")
+    seams = flagged(obj, "seam")
+    loops = contours.sort_edges([sorted(edge) for edge in seams])
+    assert len(loops.loops) == 2
+    assert not loops.branching
 
 
 def test_selected_faces_are_those_whose_edges_are_all_selected():
@@ -124,30 +136,32 @@ def test_selected_faces_are_those_whose_edges_are_all_selected():
         assert face.select == all(edge.select for edge in face.edges)
 
 
-def test_branches_and_chains_stay_as_they_are_and_are_named(last, capfd):
+def test_branches_stay_as_they_are_and_are_named(last, capfd):
     obj = start()
     branch = pairs(ring(3)) + [(3 * SEGMENTS, 4 * SEGMENTS)]
-    chain = pairs(ring(RINGS - 3)[:5], closed=False)
-    select(obj, branch + chain)
+    select(obj, branch)
     assert run(output="SEAM") == {"FINISHED"}
-    left = {frozenset(pair) for pair in branch + chain}
     assert flagged(obj, "seam") == GROOVE_EDGES
-    assert flagged(obj, "select") == GROOVE_EDGES | left
+    assert flagged(obj, "select") == GROOVE_EDGES | {frozenset(pair) for pair in branch}
     assert f"Warning: {last.message}" in capfd.readouterr().out
     assert f"branches at vertex {3 * SEGMENTS};" in last.message
-    assert f"open chain from vertex {ring(RINGS - 3)[0]} to {ring(RINGS - 3)[4]}" in last.message
 
 
 def test_the_border_of_selected_faces_in_face_mode():
+    """The region's rough border moves into the groove, the one at ring 2 has nothing concave to go to."""
     obj = grooved_cylinder()
     edit(obj, mode="FACE")
     select_faces_below(obj, START)
-    run(output="SELECT")
-    # The region has two borders: the rough one moves into the groove, the one at ring 2 has nothing concave to go to.
-    assert flagged(obj, "select") >= GROOVE_EDGES
-    assert not edge_set(START) & (flagged(obj, "select") - GROOVE_EDGES)
-    assert tuple(bpy.context.tool_settings.mesh_select_mode) == (False, True, False)
-    assert not any(face.select for face in bmesh.from_edit_mesh(obj.data).faces)
+    run(output="SEAM")
+    seams = flagged(obj, "seam")
+    assert seams > GROOVE_EDGES
+    assert not edge_set(START) & (seams - GROOVE_EDGES)
+    assert tuple(bpy.context.tool_settings.mesh_select_mode) == (False, False, True)
+    assert selected_faces(obj) == set(range(2 * SEGMENTS, GROOVE * SEGMENTS))
+
+
+def selected_faces(obj):
+    return {face.index for face in bmesh.from_edit_mesh(obj.data).faces if face.select}
 
 
 def select_first_faces(obj, count):
@@ -163,7 +177,8 @@ def test_a_region_up_to_the_mesh_border_has_only_its_inner_border():
     edit(obj, mode="FACE")
     select_first_faces(obj, (GROOVE - 2) * SEGMENTS)
     run(output="SELECT")
-    assert flagged(obj, "select") == GROOVE_EDGES
+    assert selected_faces(obj) == set(range(GROOVE * SEGMENTS))
+    assert not flagged(obj, "seam")
 
 
 def test_a_branching_border_of_faces_stays_selected(last):
@@ -174,10 +189,10 @@ def test_a_branching_border_of_faces_stays_selected(last):
     touching = [(RINGS - 4) * SEGMENTS + 3, (RINGS - 3) * SEGMENTS + 4]  # two faces that share one vertex
     for index in touching:
         bm.faces[index].select_set(True)
-    border = {frozenset((a.index, b.index)) for index in touching for a, b in pairs(list(bm.faces[index].verts))}
-    run(output="SELECT")
+    run(output="SEAM")
     assert "branches" in last.message
-    assert flagged(obj, "select") == GROOVE_EDGES | border
+    assert flagged(obj, "seam") == GROOVE_EDGES
+    assert selected_faces(obj) == {*range(GROOVE * SEGMENTS), *touching}
 
 
 def test_all_objects_in_edit_mode_are_done(last):
@@ -197,19 +212,19 @@ def test_faces_selected_in_several_objects():
         select_first_faces(obj, (GROOVE - 2) * SEGMENTS)
     run(output="SEAM")
     for obj in (first, second):
-        assert flagged(obj, "seam") == flagged(obj, "select") == GROOVE_EDGES
-        assert bmesh.from_edit_mesh(obj.data).select_mode == {"EDGE"}
+        assert flagged(obj, "seam") == GROOVE_EDGES
+        assert selected_faces(obj) == set(range(GROOVE * SEGMENTS))
 
 
 def test_an_object_with_nothing_to_do_is_named_and_stays_as_it_is(last):
     done, left = grooved_cylinder("Done"), grooved_cylinder("Left")
     edit(done, left)
     select(done, pairs(START))
-    select(left, pairs(START[:6], closed=False))
+    select(left, pairs(START[:2], closed=False))
     before = everything(left)
     assert run(output="SEAM") == {"FINISHED"}
     assert everything(left) == before
-    assert "Left: an open chain" in last.message
+    assert "Left: a single edge" in last.message
 
 
 def test_objects_that_share_a_mesh_are_done_once(last):
@@ -320,14 +335,14 @@ def test_live_unwrap_follows_a_new_seam(live):
     obj.data.uv_layers.new(name="UVMap")
     bpy.context.scene.tool_settings.use_edge_path_live_unwrap = live
     edit(obj)
-    chain = pairs(ring(3)[:5], closed=False)
-    select(obj, pairs(START) + chain)
+    single = pairs(ring(3)[:2], closed=False)
+    select(obj, pairs(START) + single)
     uv = ("corner", "uv", "UVMap")
     before = everything(obj)["layers"][uv]
     run(output="SEAM")
     assert (everything(obj)["layers"][uv] != before) == live
     assert flagged(obj, "seam") == GROOVE_EDGES
-    assert flagged(obj, "select") == GROOVE_EDGES | {frozenset(pair) for pair in chain}
+    assert flagged(obj, "select") == GROOVE_EDGES | {frozenset(pair) for pair in single}
 
 
 def test_loops_of_loose_edges_are_named(last):

@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Undo and redo give back the very same mesh; neither they nor a second run build the native surface again."""
 
+from functools import partial
+
+import bmesh
 import bpy
 import pytest
 from made_meshes import (
     GROOVE,
+    SEGMENTS,
     edge_set,
     edit,
     everything,
@@ -17,6 +21,19 @@ from made_meshes import (
     set_flag,
 )
 from minimum_ratio_contours import api, mesh_access, native
+
+
+@pytest.fixture
+def built(monkeypatch):
+    """The native surfaces that were built."""
+    make, surfaces = native.module().Surface, []
+
+    def counted(**arrays):
+        surfaces.append(make(**arrays))
+        return surfaces[-1]
+
+    monkeypatch.setattr(native.module(), "Surface", counted)
+    return surfaces
 
 
 def prepared():
@@ -61,6 +78,41 @@ def test_a_second_run_after_undo_uses_the_same_surface():
     assert flagged(cylinder(), "select") == edge_set(ring(GROOVE))
 
 
+def moved_vertex():
+    bm = bmesh.from_edit_mesh(cylinder().data)
+    bm.verts.ensure_lookup_table()
+    bm.verts[5].co.x += 1e-3
+    bmesh.update_edit_mesh(cylinder().data)
+    bpy.ops.ed.undo_push(message="edited")
+
+
+@pytest.mark.parametrize("operator", ["optimize_contour", "optimize_seams", "optimize_segmentation"])
+def test_redo_builds_no_surface_until_the_mesh_is_edited(operator, built):
+    """The redo panel undoes and runs again. Flags and labels that are written leave the surface as it is."""
+    obj = grooved_cylinder()
+    for name in ("One", "Two"):
+        obj.data.materials.append(bpy.data.materials.new(name))
+    obj.data.polygons.foreach_set(
+        "material_index", [i >= (GROOVE - 2) * SEGMENTS for i in range(len(obj.data.polygons))]
+    )
+    edit(obj)
+    loop = rough_loop(GROOVE - 3)
+    set_flag(obj, pairs(loop), "seam")
+    select(obj, pairs(loop))
+    bpy.ops.ed.undo_push(message="prepared")
+    run = partial(getattr(bpy.ops.mesh, operator), "EXEC_DEFAULT", True)
+    source = {"source": "MATERIAL"} if operator == "optimize_segmentation" else {}
+    for expected, edited in ((1, None), (2, moved_vertex)):
+        if edited:
+            edited()
+        before = everything(cylinder())
+        for width in (2, 3, 5):
+            assert run(width=width, iterations=8, **source) == {"FINISHED"}
+            assert len(built) == expected
+            bpy.ops.ed.undo()
+            assert everything(cylinder()) == before
+
+
 def test_a_moved_vertex_or_a_hidden_face_makes_a_new_surface():
     obj = grooved_cylinder()
     first = surface()
@@ -72,14 +124,7 @@ def test_a_moved_vertex_or_a_hidden_face_makes_a_new_surface():
     assert surface() not in (first, second)
 
 
-def test_several_objects_keep_their_surfaces_and_no_others_are_kept(monkeypatch):
-    make, built = native.module().Surface, []
-
-    def counted(**arrays):
-        built.append(make(**arrays))
-        return built[-1]
-
-    monkeypatch.setattr(native.module(), "Surface", counted)
+def test_several_objects_keep_their_surfaces_and_no_others_are_kept(built):
     objects = [grooved_cylinder("First"), grooved_cylinder("Second")]
     edit(*objects)
     for obj in objects:

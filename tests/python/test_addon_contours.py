@@ -96,3 +96,63 @@ def test_the_border_of_selected_faces():
 
 def test_hidden_faces_are_as_if_they_were_not_there():
     assert grid_border([4], hidden=[5]) == [(5, 6), (5, 9), (9, 10)]
+
+
+def test_a_loop_takes_the_direction_of_its_edges(rng):
+    for _ in range(20):
+        vertices = rng.choice(100, 9, replace=False)
+        edges = rng.permutation(loop_edges(vertices))
+        (loop,) = contours.sort_edges(edges).loops
+        turned = contours.along(loop, edges)
+        assert {tuple(pair) for pair in loop_edges(turned).tolist()} == {tuple(pair) for pair in edges.tolist()}
+
+
+def test_a_chain_takes_the_direction_of_its_edges(rng):
+    for _ in range(20):
+        vertices = rng.choice(100, 9, replace=False)
+        edges = rng.permutation(loop_edges(vertices)[:-1])
+        (chain,) = contours.sort_edges(edges).chains
+        np.testing.assert_array_equal(contours.along(chain, edges, closed=False), vertices)
+
+
+def test_common_edges_in_either_direction():
+    edges = np.array([[1, 2], [3, 2], [3, 4]])
+    assert contours.common_edges(edges, [[2, 3], [9, 4]]).tolist() == [[3, 2]]
+    assert contours.common_edges(edges, np.empty((0, 2))).tolist() == []
+
+
+GRID = np.array([(x, y, 0.0) for y in range(4) for x in (-2, -1, 0, 1, 2)])  # vertex 5 y + x + 2
+GRID_EDGES = np.array([(v, v + 1) for v in range(20) if v % 5 < 4] + [(v, v + 5) for v in range(15)])
+
+
+def as_set(edges):
+    return {frozenset(pair) for pair in np.asarray(edges).tolist()}
+
+
+def test_mirror_images_are_added_turned_round():
+    edges = np.array([[3, 4], [4, 9]])
+    assert contours.with_mirror_images(edges, GRID, GRID_EDGES).tolist() == [[3, 4], [4, 9], [0, 1], [5, 0]]
+
+
+def test_a_half_on_the_mirror_plane_becomes_whole():
+    half = np.array([[2, 3], [3, 8], [8, 7]])
+    both = contours.with_mirror_images(half, GRID, GRID_EDGES)
+    assert len(contours.sort_edges(both).loops) == 1
+
+
+def test_what_is_symmetric_already_stays():
+    both = contours.with_mirror_images(np.array([[0, 1], [3, 4], [2, 7]]), GRID, GRID_EDGES)
+    assert as_set(both) == {frozenset(pair) for pair in ((0, 1), (3, 4), (2, 7))}
+    assert len(both) == 3
+
+
+def test_no_image_where_the_mesh_is_not_symmetric():
+    edges = np.array([[3, 4]])
+    moved = GRID + np.where(np.arange(20) == 0, 0.01, 0.0)[:, None]
+    assert contours.with_mirror_images(edges, moved, GRID_EDGES) is None
+    fewer = GRID_EDGES[[tuple(pair) != (0, 1) for pair in GRID_EDGES.tolist()]]
+    assert contours.with_mirror_images(edges, GRID, fewer) is None
+
+
+def test_no_image_that_would_make_a_contour_branch():
+    assert contours.with_mirror_images(np.array([[1, 2], [2, 7]]), GRID, GRID_EDGES) is None

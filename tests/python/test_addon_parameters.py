@@ -35,7 +35,12 @@ def test_every_value_of_a_setting_is_a_native_option(name, value):
 def test_no_setting_is_dead(name):
     row = parameters.SETTINGS[name]
     other = next(value for value in choices(row) if value != row["default"])
-    assert parameters.native_options(**{name: other}) != parameters.native_options()
+    others = {} if name == "refinement" else {"refinement": 1}  # without it nothing needs iterations along edges first
+    assert parameters.native_options(**{name: other}, **others) != parameters.native_options(**others)
+
+
+def test_without_refinement_nothing_goes_before_the_iterations():
+    assert parameters.native_options(regular_iterations=5)["regular_iterations"] == 0
 
 
 def test_the_whole_surface_has_no_width():

@@ -45,7 +45,59 @@ def test_summary(outcomes, expected):
 
 
 def test_problems_name_their_elements():
-    assert report.open_chain([4, 8, 9]) == "an open chain from vertex 4 to 9, only closed loops can be optimized"
+    assert "a single edge, 4-8," in report.single_edge([4, 8])
     assert "at vertex 7;" in report.branching([7])
     assert "at vertices 1, 2, 3 and 6 more;" in report.branching(list(range(1, 10)))
     assert "(1-2, 2-3)" in report.loose([(1, 2), (2, 3)])
+    assert "from vertex 4 to 9, once closed, would meet another" in report.meets_another([4, 5, 9])
+    ring, strand = report.Outcome.of("Ring", [3, 4, 5], True), report.Outcome.of("Ring", [3, 4, 5], False)
+    assert "the loop through vertex 3 does not separate" in report.inseparable(ring)
+    assert "from vertex 3 to 5 does not separate" in report.inseparable(strand)
+
+
+TORN = "a border whose move would join or split regions"
+
+
+@pytest.mark.parametrize(
+    ("outcomes", "expected"),
+    [
+        ([done(), STAYED, done()], "2 of 3 seams moved. Mean ratio -0.3333 to -1.333"),
+        ([STAYED, STAYED], "No better place was found for the seams"),
+        ([done(), left(TORN), left(TORN)], f"1 of 3 seams moved. Ratio 0.5 to -1. Left as it is: {TORN}"),
+        ([STAYED, left("no", "Foot")], "No better place was found for the seams. Left as it is: Foot: no"),
+        ([left("there are no face sets")], "Left as it is: there are no face sets"),
+    ],
+)
+def test_summary_of_a_network(outcomes, expected):
+    assert report.network_summary(outcomes, "seams") == expected
+
+
+def chain(*vertices, movable=True):
+    return SimpleNamespace(vertices=np.array(vertices), closed=False, movable=movable)
+
+
+def test_each_chain_that_could_move_has_a_result_or_a_problem():
+    result, labels = done().result, np.array([4, 4, 7])
+    chains = [chain(0, 1, 2), chain(2, 3, movable=False), chain(3, 4, 5), chain(5, 6, 7), chain(7, 8, 9)]
+    settlement = SimpleNamespace(lost={3: 2, 4: -1})
+    plan = SimpleNamespace(
+        chains=chains, problems={2: "beside a hole"}, settlement=settlement, taken_results=lambda: {0: result}
+    )
+    outcomes = report.network_outcomes("Hand", plan, lambda region: report.lost_region(labels, region))
+    assert [outcome.edges[0].tolist() for outcome in outcomes] == [[0, 1], [3, 4], [5, 6], [7, 8]]
+    assert [outcome.result for outcome in outcomes] == [result, None, None, None]
+    thin = "the borders of region 7, which is too thin to keep otherwise"
+    assert [outcome.problem for outcome in outcomes] == ["", "beside a hole", thin, TORN]
+
+
+def test_warnings_follow_once_each():
+    warning = report.inside_out("Hand")
+    assert "Recalculate Outside (Shift N)" in warning
+    message = report.summary([done(), left("it branches")], [warning, warning])
+    assert message == f"1 contour improved. Ratio 0.5 to -1. Left as it is: it branches. {warning}"
+
+
+def test_a_contour_that_cannot_be_output_counts_as_left():
+    refused = done()
+    refused.problem = "it separates nothing"
+    assert report.summary([refused]) == "Left as it is: it separates nothing"

@@ -46,6 +46,9 @@ class CurvatureField {
 /// The polygon's area vector (Newell): normal times area, whatever its triangulation.
 Vec3 polygon_area_vector(const Surface& surface, int face);
 
+/// Polygon normals weighted by corner angle, unit; the z axis where they cancel.
+Vec3 vertex_normal(const Surface& surface, int vertex);
+
 /// Equal shares of the areas of the polygons at a vertex.
 double vertex_area(const Surface& surface, int vertex);
 

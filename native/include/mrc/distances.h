@@ -21,6 +21,8 @@ class DistanceField {
 
     /// Infinity where no edges lead there.
     double at(int vertex) const;
+    /// The place in the contour of the point from which the shortest path leads there, or -1 where no edges lead there.
+    int nearest(int vertex) const;
     /// Linear inside an edge.
     double at(const SurfacePoint& point) const {
         return (1.0 - point.t) * at(point.a) + (point.is_vertex() ? 0.0 : point.t * at(point.b));
@@ -28,13 +30,18 @@ class DistanceField {
 
   private:
     using Entry = std::pair<double, int>;
+    struct Way {
+        double length;
+        int point;  // where it starts
+    };
     const Surface& surface_;
-    mutable std::unordered_map<int, double> best_;
+    mutable std::unordered_map<int, Way> best_;
     mutable std::unordered_set<int> settled_;
     mutable std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 
-    void reach(int vertex, double distance) const;
+    void reach(int vertex, Way way) const;
     bool settle_next() const;
+    bool settle(int vertex) const;
 };
 
 /// The vertices at most `rings` real edges away, the given ones first, from near to far; nothing stops them.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace mrc {
@@ -46,6 +47,9 @@ struct Patch {
 /// @throws InvalidInput where it is no simple loop (curve) on the surface's edges and across its faces, with a usable polygon on
 /// one side at least, and not on the border; it names the elements.
 Contour checked_contour(const Surface& surface, const Contour& contour);
+
+/// What keeps a contour from running along the real edge ab, in words; empty: nothing. One side that a band may enter is enough.
+std::string obstacle(const Surface& surface, int a, int b);
 
 /// True where a refined contour has a simple contour along mesh edges beside it, from which a band can grow.
 bool has_neighbour_along_edges(const Surface& surface, const Contour& contour);

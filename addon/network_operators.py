@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operators that optimize a whole network: all seams, or all borders between regions."""
+
+from dataclasses import dataclass
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, StringProperty
+
+from . import api, jobs, mesh_access, networks, outputs, panels, report, seams, segmentation
+from .operators import NetworkSettings, SearchInEditMode
+
+
+@dataclass
+class Task:
+    """One object's network, and what becomes of it."""
+
+    obj: bpy.types.Object
+    problem: str = ""  # why there is no network
+    about: object = None  # what the operator must know to write it
+    network: networks.Network = None
+    surface: object = None  # where something is movable
+    plan: networks.Plan = None
+
+
+def optimize_tasks(tasks, settings, progress=None):
+    """Gives each task its plan, or its problem. Without bpy, for any thread."""
+    for i, task in enumerate(tasks):
+        try:
+            task.plan = networks.optimize(
+                task.surface, task.network, jobs.share_of(progress, i, len(tasks)), **settings
+            )
+        except ValueError as error:
+            task.problem = str(error)
+
+
+class NetworkOperator(NetworkSettings, SearchInEditMode):
+    """What both have in common."""
+
+    def read(self, context):
+        objects = context.objects_in_mode_unique_data
+        return [self._read_task(obj, objects) for obj in objects]
+
+    def search(self, tasks):
+        sound, settings = [task for task in tasks if not task.problem], self.settings()
+        return lambda progress: optimize_tasks(sound, settings, progress)
+
+    def apply(self, context, tasks):
+        outcomes = [outcome for task in tasks for outcome in self._outcomes(task)]
+        if not outcomes:
+            return self.give_up(context, "WARNING", self.nothing)
+        moved = [task for task in tasks if task.plan and task.plan.changed]
+        message = report.network_summary(outcomes, self.noun)
+        level = "WARNING" if any(outcome.problem for outcome in outcomes) else "INFO"
+        if not moved:
+            return self.give_up(context, level, message, outcomes)
+        for task in moved:
+            self._write(task)
+        self._written(context)
+        return self.tell(context, level, message, outcomes)
+
+    def surfaces(self, tasks):
+        return [(task.obj, task.surface) for task in tasks if task.surface]
+
+    def draw(self, context):
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        self._draw_source(layout, context)
+        panels.draw_search_settings(layout, self)
+        panels.draw_more_settings(layout, self)
+
+    def _read_task(self, obj, objects):
+        mesh_access.synchronize(obj)
+        task = Task(obj)
+        try:
+            self._read_network(task)
+            if task.network.movable:
+                task.surface = api.surface_of(obj, beside=objects)
+        except ValueError as error:
+            task.problem = str(error)
+        return task
+
+    def _outcomes(self, task):
+        if task.problem:
+            return [report.Outcome(task.obj.name, None, problem=task.problem)]
+        return self._chain_outcomes(task)
+
+
+class MESH_OT_optimize_seams(NetworkOperator, bpy.types.Operator):
+    """Move all seams to the part boundaries nearby, where the surface is most concave for their length. \
+Where seams meet they stay together, and every island stays one island"""
+
+    bl_idname = "mesh.optimize_seams"
+    bl_label = "Optimize Seams"
+    noun = "seams"
+    nothing = "Nothing to optimize: there are no seams of two edges or more; mark some, or clear Selected Only"
+
+    selected_only: BoolProperty(
+        name="Selected Only",
+        description="Move the seams among the selected edges and leave the others where they are",
+        default=False,
+    )
+
+    def _read_network(self, task):
+        task.network = seams.read_network(task.obj, self.selected_only)
+        task.about = self.selected_only and seams.only_seams_selected(task.obj)
+
+    def _chain_outcomes(self, task):
+        return seams.outcomes(task.obj.name, task.plan)
+
+    def _write(self, task):
+        seams.write(task.obj, task.plan, selection=task.about)
+
+    def _written(self, context):
+        outputs.unwrap_live(context, [obj.data for obj in context.objects_in_mode_unique_data])
+
+    def _draw_source(self, layout, context):
+        layout.prop(self, "selected_only")
+
+
+class MESH_OT_optimize_segmentation(NetworkOperator, bpy.types.Operator):
+    """Move the borders between all regions to the part boundaries nearby; the faces' labels move with them. \
+Where three regions meet they stay together, and no region is lost"""
+
+    bl_idname = "mesh.optimize_segmentation"
+    bl_label = "Optimize Segmentation"
+    noun = "borders"
+    nothing = "Nothing to optimize: there are no borders between regions; choose another source, or label some faces"
+
+    source: EnumProperty(
+        name="Regions",
+        description="What tells the regions apart",
+        items=(
+            ("FACE_SETS", "Face Sets", "The face sets of Sculpt Mode"),
+            ("MATERIAL", "Materials", "The material slots of the faces"),
+            ("ATTRIBUTE", "Attribute", "An integer attribute of the faces"),
+        ),
+        default="FACE_SETS",
+    )
+    attribute: StringProperty(name="Attribute", description="The name of an integer attribute of the faces", default="")
+
+    def _read_network(self, task):
+        task.about = segmentation.read_labelling(task.obj, self.source, self.attribute)
+        task.network = segmentation.read_network(task.obj, task.about)
+
+    def _chain_outcomes(self, task):
+        return segmentation.outcomes(task.obj.name, task.about, task.plan)
+
+    def _write(self, task):
+        segmentation.write(task.obj, task.about, task.plan)
+
+    def _written(self, context):
+        """Nothing follows from labels."""
+
+    def _draw_source(self, layout, context):
+        layout.prop(self, "source")
+        row = layout.row()
+        row.enabled = self.source == "ATTRIBUTE"
+        row.prop_search(self, "attribute", context.object.data, "attributes")
+
+
+def _draw_uv_menu(self, context):
+    self.layout.separator()
+    self.layout.operator(MESH_OT_optimize_seams.bl_idname)
+
+
+def _draw_face_menu(self, context):
+    self.layout.separator()
+    self.layout.operator(MESH_OT_optimize_segmentation.bl_idname)
+
+
+def register():
+    bpy.utils.register_class(MESH_OT_optimize_seams)
+    bpy.utils.register_class(MESH_OT_optimize_segmentation)
+    bpy.types.VIEW3D_MT_uv_map.append(_draw_uv_menu)
+    bpy.types.VIEW3D_MT_edit_mesh_faces.append(_draw_face_menu)
+
+
+def unregister():
+    bpy.types.VIEW3D_MT_edit_mesh_faces.remove(_draw_face_menu)
+    bpy.types.VIEW3D_MT_uv_map.remove(_draw_uv_menu)
+    bpy.utils.unregister_class(MESH_OT_optimize_segmentation)
+    bpy.utils.unregister_class(MESH_OT_optimize_seams)

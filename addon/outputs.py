@@ -1,0 +1,243 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What becomes of the contours found, in the meshes in Edit Mode: flags, selection, cuts, rips, parts of their own."""
+
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import bmesh
+import bpy
+
+from . import custom_normals, cutting, mesh_access, report, sides
+
+FLAGS = {"SEAM": ("seam", True), "SHARP": ("smooth", False)}
+PARTING = ("RIP", "SEPARATE")
+
+
+@dataclass(frozen=True)
+class Wish:
+    """What the user asked for."""
+
+    output: str
+    keep_old: bool = False
+    fill_holes: bool = False
+    merge: float = 0.0
+    face_mode: bool = False
+
+
+def refuse(parts, wish):
+    """Notes as problems the contours that the output cannot be made of; changes nothing.
+
+    A result runs round the same things as the given contour, so that the mesh as it is can be asked.
+    """
+    if wish.output not in PARTING:
+        return
+    for part in parts:
+        done = part.done()
+        chains = [(outcome.vertices, outcome.closed) for outcome in done]
+        bm = bmesh.from_edit_mesh(part.obj.data)  # faces live no longer than this
+        pieces = sides.pieces_between(bm, chains)
+        leaving = _leaving(pieces, wish)
+        for outcome, beside in zip(done, pieces):
+            outcome.problem = _parting_problem(outcome, beside, leaving, wish)
+
+
+def _leaving(pieces, wish):
+    """The pieces that become objects of their own: in face mode those to the left, else all but the largest."""
+    if wish.output != "SEPARATE":
+        return []
+    parted = [(left, right) for left, right in pieces if left is not right]
+    if wish.face_mode:
+        return [left for left, _ in parted]
+    leaving = []
+    for group in _joined_groups(parted):
+        stays = max(group, key=lambda piece: piece.size)
+        leaving += [piece for piece in group if piece is not stays]
+    return leaving
+
+
+def _joined_groups(pairs):
+    """Lists of what is joined by pairs, in the order of the pairs."""
+    groups = []
+    for pair in pairs:
+        touched = [group for group in groups if any(item in group for item in pair)]
+        rest = [group for group in groups if group not in touched]
+        groups = [*rest, list(dict.fromkeys([item for group in touched for item in group] + list(pair)))]
+    return groups
+
+
+def _parting_problem(outcome, beside, leaving, wish):
+    if wish.output == "RIP" and not outcome.closed:
+        return ""  # a slit
+    if beside[0] is beside[1]:
+        return report.inseparable(outcome)
+    parts = [(piece, piece is beside[0]) for piece in beside if piece in leaving]
+    for piece, _ in parts:
+        piece.finish()
+    outcome.leaving = tuple(on_left for piece, on_left in parts if not piece.any_hidden)
+    return report.hidden_part(outcome) if parts and not outcome.leaving else ""
+
+
+def changes_anything(parts, wish):
+    """Whether the output differs from what is there: a contour that stays is selected already, as given."""
+    done = [(outcome, part.mirrored or outcome.closing) for part in parts for outcome in part.done()]
+    flags_or_topology = wish.output not in ("SELECT", "CUT")
+    return any(flags_or_topology or added or outcome.result.status != "unchanged" for outcome, added in done)
+
+
+def write(context, parts, wish):
+    """Makes the output of all contours that have a result and no problem."""
+    parts = [part for part in parts if part.done()]
+    cut_parts = [_Cut(part, wish) for part in parts]
+    for cut in cut_parts:
+        cut.write()
+    if wish.output == "SEAM":
+        unwrap_live(context, [part.obj.data for part in parts])
+    if wish.output == "SEPARATE":
+        _separate(context, cut_parts)
+    if any(cut.normals_kept for cut in cut_parts):
+        custom_normals.restore(context)
+
+
+class _Cut:
+    """The contours of one mesh, cut into its faces where they are refined, and what is made of them."""
+
+    def __init__(self, part, wish):
+        self.mesh, self.wish = part.obj.data, wish
+        self.bm = bmesh.from_edit_mesh(self.mesh)
+        self.done = part.done()
+        results = [outcome.result for outcome in self.done]
+        self.changes_faces = wish.output in PARTING or cutting.cuts_faces(self.bm, results)
+        self.normals_kept = self.changes_faces and custom_normals.keep(part.obj, self.bm, cutting.faces_cut(results))
+        self._forget_old(part.old_edges())
+        ids = cutting.cut_contours(self.bm, results, wish.merge)
+        self.contours = [(vertices, result.closed) for vertices, result in zip(ids, results)]
+        self.edges = self._edges_along(self.contours)
+        self.seeds = []  # a face of each part that is cut off
+
+    def write(self):
+        if self.wish.output in FLAGS:
+            _set_flag(self.edges, self.wish.output, True)
+        moved = self._move_selected_faces() if self.wish.face_mode else set()
+        self.seeds = [
+            sides.face_beside(self.bm, *contour, on_left)
+            for contour, outcome in zip(self.contours, self.done)
+            for on_left in outcome.leaving
+        ]
+        if self.wish.output in PARTING:
+            self._rip()
+        if self.wish.face_mode:
+            _tidy_selection(
+                moved | {face for edge in self.edges for vertex in edge.verts for face in vertex.link_faces}
+            )
+        else:
+            _select_each([self.edges], True)
+        _flush_selection(self.bm)
+        bmesh.update_edit_mesh(self.mesh, loop_triangles=self.changes_faces, destructive=self.changes_faces)
+
+    def _edges_along(self, chains):
+        return [edge for chain in chains for edge in sides.edges_along(self.bm, *chain)]
+
+    def _forget_old(self, old_edges):
+        """Before the cut: afterwards the given edges may be in pieces."""
+        edges = mesh_access.find_edges(self.bm, old_edges)
+        if self.wish.output in FLAGS and not self.wish.keep_old:
+            _set_flag(edges, self.wish.output, False)
+        if not self.wish.face_mode:
+            _select_each([edges], False)
+
+    def _move_selected_faces(self):
+        """The selected part lies to the left of its contours: what they passed over changes sides, and is returned."""
+        walls = set(self.edges)
+        left, right = zip(*(sides.beside(self.bm, *contour) for contour in self.contours))
+        gained = sides.reach(sum(left, []), walls, lambda face: not (face.select or face.hide))
+        lost = sides.reach(sum(right, []), walls, lambda face: face.select)
+        for faces, value in ((lost, False), (gained, True)):
+            for face in faces:
+                face.select_set(value)
+        return gained | lost
+
+    def _rip(self):
+        """The edges of both rims are the contours' from now on. A slit has no hole to fill."""
+        loops = self._edges_along(contour for contour in self.contours if contour[1])
+        slits = self._edges_along(contour for contour in self.contours if not contour[1])
+        rims = bmesh.ops.split_edges(self.bm, edges=loops)["edges"]
+        if self.wish.fill_holes:
+            for face in bmesh.ops.holes_fill(self.bm, edges=rims, sides=0)["faces"]:
+                face.hide_set(False)  # it takes after a neighbour
+        self.edges = rims + bmesh.ops.split_edges(self.bm, edges=slits)["edges"]
+
+
+def _tidy_selection(faces):
+    """In face mode edges and vertices are selected where a face of theirs is; cuts and rips leave others behind."""
+    for element in {element for face in faces for element in (*face.edges, *face.verts)}:
+        if not any(face.select for face in element.link_faces):
+            element.select_set(False)
+    for face in faces:
+        if face.select:
+            face.select_set(True)
+
+
+def _separate(context, cut_parts):
+    """Makes each part an object of its own; the rest keeps its selection."""
+    with _nothing_selected([obj.data for obj in context.objects_in_mode_unique_data]):
+        for cut in cut_parts:
+            for seed in cut.seeds:
+                if seed.is_valid:  # else another contour of the same part came first
+                    seed.select_set(True)
+                    bpy.ops.mesh.select_linked(delimit=set())
+                    bpy.ops.mesh.separate(type="SELECTED")
+
+
+@contextmanager
+def _nothing_selected(meshes):
+    """Deselects everything for Blender's own operators; afterwards what is left of it is selected again."""
+    bms = [bmesh.from_edit_mesh(mesh) for mesh in meshes]
+    selected = [
+        [element for kind in (bm.verts, bm.edges, bm.faces) for element in kind if element.select] for bm in bms
+    ]
+    _select_each(selected, False)
+    yield
+    _select_each(selected, True)
+    for mesh, bm in zip(meshes, bms):
+        bm.select_flush_mode()
+        bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+
+
+def _select_each(element_lists, value):
+    for elements in element_lists:
+        for element in elements:
+            if element.is_valid:
+                element.select_set(value)
+
+
+def _set_flag(edges, output, value):
+    name, meaning = FLAGS[output]
+    for edge in edges:
+        setattr(edge, name, meaning if value else not meaning)
+
+
+def _flush_selection(bm):
+    """Lets everything follow that hangs on what is selected, as the select mode has it."""
+    bm.select_flush_mode()
+    bm.select_history.validate()
+
+
+def move_flag(mesh, output, old_edges, new_edges, selection=False):
+    """Takes a flag, and the selection, from edges and gives it to others, both as pairs of vertices; in Edit Mode."""
+    bm = bmesh.from_edit_mesh(mesh)
+    for pairs, value in ((old_edges, False), (new_edges, True)):
+        edges = mesh_access.find_edges(bm, pairs)
+        _set_flag(edges, output, value)
+        if selection:
+            _select_each([edges], value)
+    if selection:
+        _flush_selection(bm)
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+
+
+def unwrap_live(context, meshes):
+    """Blender's own seam tool unwraps again where Live Unwrap is on; with nothing selected that is all that it does."""
+    if not context.tool_settings.use_edge_path_live_unwrap:
+        return
+    with _nothing_selected(meshes):
+        bpy.ops.mesh.mark_seam(clear=False)

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The seams of a mesh as a network of contours, and back."""
+
+from . import mesh_access, networks, outputs, report
+
+
+def read_network(obj, selected_only=False):
+    """A synchronized mesh's seams; those among its selected edges move, or all.
+
+    Every island of the UV map stays one island, on the same side of its seams.
+    """
+    topology = networks.make_topology(**vars(mesh_access.read_edge_arrays(obj.data)))
+    seams, selected = mesh_access.read_seams(obj.data)
+    chosen = seams & selected if selected_only else seams
+    return networks.make_network(topology, seams, chosen)
+
+
+def only_seams_selected(obj):
+    """Whether the selection of a synchronized mesh is one of seams; then it moves with them."""
+    seams, selected = mesh_access.read_seams(obj.data)
+    return not (selected & ~seams).any()
+
+
+def write(obj, plan, selection=False):
+    """Moves the seams; in Edit Mode the selection along them too, where that is wanted."""
+    if obj.data.is_editmode:
+        outputs.move_flag(obj.data, "SEAM", plan.old_edges(), plan.new_edges(), selection)
+    else:
+        edges = (plan.topology.find(pairs)[0] for pairs in (plan.old_edges(), plan.new_edges()))
+        mesh_access.write_seams(obj.data, *edges)
+
+
+def outcomes(place, plan):
+    """What became of each chain that could have moved."""
+    return report.network_outcomes(place, plan, lambda _: "a seam whose move would join or split islands")

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The borders between the regions of a labelling as a network of contours, and back to labels."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import mesh_access, networks, report
+
+FACE_SETS = ".sculpt_face_set"
+SOURCES = ("FACE_SETS", "MATERIAL", "ATTRIBUTE")
+
+
+class NoLabels(ValueError):
+    """The mesh has no such labels; the message says what to do."""
+
+
+@dataclass(frozen=True)
+class Labelling:
+    """The labels of a mesh's faces, and where they stand: a face attribute's name, or None for the material slots."""
+
+    attribute: str
+    labels: np.ndarray
+
+
+def read_labelling(obj, source, attribute=""):
+    """Raises NoLabels."""
+    if source not in SOURCES:
+        raise ValueError(f"the source is {source!r}; it must be one of {', '.join(SOURCES)}")
+    name = {"FACE_SETS": FACE_SETS, "MATERIAL": None, "ATTRIBUTE": attribute}[source]
+    labels = mesh_access.read_labels(obj.data, name)
+    if labels is None:
+        raise NoLabels(report.no_face_sets() if source == "FACE_SETS" else report.no_attribute(attribute))
+    return Labelling(name, labels)
+
+
+def read_network(obj, labelling):
+    """The borders between a synchronized mesh's regions.
+
+    A region is one connected piece of one label. Contours run along edges, since labels belong to whole faces. Those
+    across faces would have to be cut into the mesh first, and the labels read again.
+    """
+    topology = networks.make_topology(**vars(mesh_access.read_edge_arrays(obj.data)))
+    return networks.make_network(topology, networks.label_borders(topology, labelling.labels))
+
+
+def new_labels(labelling, plan):
+    """The labels of all faces once the borders have moved: regions are named by a face that had their label before."""
+    return labelling.labels[plan.settlement.after]
+
+
+def write(obj, labelling, plan):
+    """Labels the faces anew."""
+    labels = new_labels(labelling, plan)
+    changed = np.flatnonzero(labels != labelling.labels)
+    mesh_access.write_labels(obj.data, labelling.attribute, changed, labels[changed])
+
+
+def outcomes(place, labelling, plan):
+    """What became of each border that could have moved."""
+    return report.network_outcomes(place, plan, lambda region: report.lost_region(labelling.labels, region))

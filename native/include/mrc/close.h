@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <mrc/surface.h>
+
+namespace mrc {
+
+/// Closes an open chain of vertices round the limb that it lies on, so that part of a loop drawn by hand is enough.
+///
+/// The result begins with the chain. The way back to its start is the cheapest path along mesh edges after Lee et al., "Intelligent
+/// mesh scissoring using 3D snakes" (Pacific Graphics 2004), on completing a contour: length times functions of the distance from
+/// the chain, of the normal and of concavity, cheap far from the chain, where the surface faces away from it, and along creases. So
+/// it goes round the limb and not back beside the chain. The formulas, and what differs from theirs, stand in the source.
+/// The work grows with what lies within the cost of the closing path, not with the mesh.
+/// Reversing the chain gives the same loop, reversed.
+/// @throws InvalidInput where the chain is none (`checked_contour`), has points inside edges, or nothing leads round, as on a plane.
+Contour close_contour(const Surface& surface, const Contour& chain);
+
+}  // namespace mrc

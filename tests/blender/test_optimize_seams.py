@@ -1,0 +1,352 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""mesh.optimize_seams on made meshes: the network moves as a whole, and every island stays one island."""
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+from made_meshes import (
+    GROOVE,
+    RINGS,
+    SEGMENTS,
+    edge_set,
+    edit,
+    everything,
+    flagged,
+    grooved_cylinder,
+    mesh_object,
+    pairs,
+    ring,
+    rough_loop,
+    select,
+    set_flag,
+)
+from minimum_ratio_contours import api, mesh_access, native, parameters
+
+START = rough_loop(GROOVE - 3)
+
+
+def start(seams, **more):
+    obj = grooved_cylinder(**more)
+    edit(obj)
+    set_flag(obj, seams, "seam")
+    return obj
+
+
+def run(**properties):
+    return bpy.ops.mesh.optimize_seams(**properties)
+
+
+def upright(column, low=0, high=RINGS - 1):
+    """The edges from one ring to another, in a column."""
+    return pairs([row * SEGMENTS + column for row in range(low, high + 1)], closed=False)
+
+
+def islands(obj):
+    """The number of pieces into which the seams cut the mesh."""
+    bm = bmesh.from_edit_mesh(obj.data)
+    pending, count = set(bm.faces), 0
+    while pending:
+        count += 1
+        reached = [pending.pop()]
+        while reached:
+            beside = {f for edge in reached.pop().edges if not edge.seam for f in edge.link_faces} & pending
+            pending -= beside
+            reached += beside
+    return count
+
+
+def frozen(edges):
+    return {frozenset(pair) for pair in edges}
+
+
+def test_a_closed_seam_moves_into_the_groove(last, capfd):
+    obj = start(pairs(START))
+    assert run() == {"FINISHED"}
+    assert flagged(obj, "seam") == edge_set(ring(GROOVE))
+    assert flagged(obj, "select") == flagged(obj, "sharp") == set()
+    assert last.message.startswith("1 of 1 seams moved. Ratio ")
+    assert f"Info: {last.message}" in capfd.readouterr().out
+    assert last.contours[0].ratio < last.contours[0].initial_ratio
+
+
+def test_junctions_stay_and_the_chains_between_them_move():
+    """An upright seam meets the loop: where it does they stay together, the rest of the loop goes into the groove."""
+    loop = rough_loop(GROOVE - 2, steps=1)
+    obj = start(pairs(loop) + upright(0, high=GROOVE - 2))
+    assert islands(obj) == 2
+    assert run(min_salience=0.0) == {"FINISHED"}
+    seams = flagged(obj, "seam")
+    junction = (GROOVE - 2) * SEGMENTS
+    assert sum(junction in edge for edge in seams) == 3
+    assert len(seams & edge_set(ring(GROOVE))) > SEGMENTS // 2
+    assert islands(obj) == 2
+
+
+def groove_along(columns=17, rows=9, groove=10):
+    """A sheet with a groove up column `groove`."""
+    x, y = np.meshgrid(np.arange(columns) * 1.0, np.arange(rows) * 1.0)
+    z = -1.2 * np.exp(-((x - groove) ** 2) / 2)
+    faces = [
+        (y * columns + x, y * columns + x + 1, (y + 1) * columns + x + 1, (y + 1) * columns + x)
+        for y in range(rows - 1)
+        for x in range(columns - 1)
+    ]
+    return mesh_object("Sheet", np.stack([x, y, z], axis=-1).reshape(-1, 3).tolist(), faces=faces)
+
+
+def test_ends_on_the_border_slide_along_it():
+    obj = groove_along()
+    edit(obj)
+    set_flag(obj, pairs([17 * y + 8 for y in range(9)], closed=False), "seam")
+    assert run() == {"FINISHED"}
+    assert flagged(obj, "seam") == frozen(pairs([17 * y + 10 for y in range(9)], closed=False))
+    assert islands(obj) == 2
+
+
+def test_an_end_on_the_surface_stays():
+    obj = groove_along()
+    edit(obj)
+    set_flag(obj, pairs([17 * y + 8 for y in range(7)], closed=False), "seam")
+    assert run() == {"FINISHED"}
+    seams = flagged(obj, "seam")
+    assert sum(17 * 6 + 8 in edge for edge in seams) == 1
+    assert not any(8 in edge for edge in seams)  # the other end has left its place on the border
+    assert islands(obj) == 1
+
+
+def test_only_the_selected_seams_move():
+    other = rough_loop(2)
+    obj = start(pairs(START) + pairs(other))
+    select(obj, pairs(START))
+    assert run(selected_only=True, min_salience=0.0) == {"FINISHED"}
+    assert flagged(obj, "seam") == edge_set(ring(GROOVE)) | edge_set(other)
+    assert flagged(obj, "select") == edge_set(ring(GROOVE))
+
+
+def test_a_part_of_a_seam_selected():
+    obj = start(pairs(START))
+    part = START[4:20]
+    select(obj, pairs(part, closed=False) + upright(3, high=4))
+    before = flagged(obj, "select")
+    assert run(selected_only=True) == {"FINISHED"}
+    seams = flagged(obj, "seam")
+    assert seams >= edge_set(START) - frozen(pairs(part, closed=False))
+    assert seams != edge_set(START)
+    assert flagged(obj, "select") == before  # more than seams was selected
+
+
+def test_the_selection_without_seams(last):
+    obj = start(pairs(START))
+    select(obj, upright(3, high=4))
+    before = everything(obj)
+    assert run(selected_only=True) == {"CANCELLED"}
+    assert "Selected Only" in last.message
+    assert everything(obj) == before
+
+
+@pytest.mark.parametrize("seams", [[], upright(5, low=3, high=4), pairs(ring(0))])
+def test_nothing_to_optimize(seams, last):
+    """No seams, a single edge, and seams along the border of the mesh."""
+    obj = start(seams)
+    before = everything(obj)
+    assert run() == {"CANCELLED"}
+    assert last.message.startswith("Nothing to optimize")
+    assert everything(obj) == before
+
+
+def test_nothing_better(last):
+    obj = start(pairs(ring(GROOVE)))
+    before = everything(obj)
+    assert run() == {"CANCELLED"}
+    assert last.message == "No better place was found for the seams"
+    assert everything(obj) == before
+
+
+def test_an_empty_mesh():
+    obj = mesh_object("Empty", [])
+    edit(obj)
+    assert run() == {"CANCELLED"}
+
+
+def test_all_objects_in_edit_mode(last):
+    first, second = grooved_cylinder("First"), grooved_cylinder("Second")
+    edit(first, second)
+    for obj in (first, second):
+        set_flag(obj, pairs(START), "seam")
+    assert run() == {"FINISHED"}
+    assert flagged(first, "seam") == flagged(second, "seam") == edge_set(ring(GROOVE))
+    assert last.message.startswith("2 of 2 seams moved")
+
+
+def test_hidden_geometry_is_untouched():
+    obj = start(upright(8) + pairs(START))
+    bm = bmesh.from_edit_mesh(obj.data)
+    for face in bm.faces:
+        if all(vertex.index // SEGMENTS <= 5 for vertex in face.verts):
+            face.hide_set(True)
+    bmesh.update_edit_mesh(obj.data)
+    hidden = {i for i, state in enumerate(everything(obj)["edges"]) if state[3]}
+    before = everything(obj)
+    assert run() == {"FINISHED"}
+    after = everything(obj)
+    assert after != before
+    assert [after["edges"][i] for i in hidden] == [before["edges"][i] for i in hidden]
+    assert after["faces"] == before["faces"]
+    assert islands(obj) == 2
+
+
+def test_nothing_but_seams_changes():
+    obj = grooved_cylinder()
+    obj.data.uv_layers.new(name="UVMap")
+    group = obj.vertex_groups.new(name="Group")
+    group.add(ring(4), 0.5, "ADD")
+    edit(obj)
+    set_flag(obj, pairs(START) + upright(0), "seam")
+    set_flag(obj, pairs(ring(2)), "sharp")
+    select(obj, upright(7, high=3))
+    before = everything(obj)
+    run()
+    after = everything(obj)
+    assert after["edges"] != before["edges"]
+    assert [edge[:4] + edge[5:] for edge in after["edges"]] == [edge[:4] + edge[5:] for edge in before["edges"]]
+    assert [after[name] for name in ("vertices", "faces", "layers")] == [
+        before[name] for name in ("vertices", "faces", "layers")
+    ]
+
+
+@pytest.mark.parametrize("live", [False, True])
+def test_live_unwrap_follows(live):
+    obj = grooved_cylinder()
+    obj.data.uv_layers.new(name="UVMap")
+    bpy.context.scene.tool_settings.use_edge_path_live_unwrap = live
+    edit(obj)
+    set_flag(obj, pairs(START) + upright(0), "seam")
+    uv = ("corner", "uv", "UVMap")
+    before = everything(obj)["layers"][uv]
+    run()
+    assert (everything(obj)["layers"][uv] != before) == live
+
+
+def test_undo_and_redo():
+    start(pairs(START) + upright(4))
+    bpy.ops.ed.undo_push(message="prepared")
+    before = everything(bpy.data.objects["Cylinder"])
+    assert bpy.ops.mesh.optimize_seams("EXEC_DEFAULT", True) == {"FINISHED"}
+    after = everything(bpy.data.objects["Cylinder"])
+    assert after != before
+    bpy.ops.ed.undo()
+    assert everything(bpy.data.objects["Cylinder"]) == before
+    bpy.ops.ed.redo()
+    assert everything(bpy.data.objects["Cylinder"]) == after
+
+
+def test_object_mode_is_refused():
+    grooved_cylinder()
+    with pytest.raises(RuntimeError, match="Edit Mode"):
+        run()
+
+
+def test_the_library_missing(monkeypatch):
+    obj = start(pairs(START))
+    before = everything(obj)
+    monkeypatch.setattr(native, "VERSION", "0.0.1")
+    with pytest.raises(RuntimeError, match="restart Blender"):
+        run()
+    assert everything(obj) == before
+
+
+# ---- scripts
+
+
+def seam_set(mesh):
+    return {frozenset(edge.vertices) for edge in mesh.edges if edge.use_seam}
+
+
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+def test_api(mode):
+    obj = start(pairs(START))
+    bpy.ops.object.mode_set(mode=mode)
+    (result,) = api.optimize_seams(obj)
+    assert result.status == "improved"
+    assert edge_set(result.vertices.tolist()) == edge_set(ring(GROOVE))
+    mesh_access.synchronize(obj)
+    assert seam_set(obj.data) == edge_set(START)
+    api.optimize_seams(obj, apply=True)
+    mesh_access.synchronize(obj)
+    assert seam_set(obj.data) == edge_set(ring(GROOVE))
+
+
+@pytest.mark.parametrize("name", sorted(parameters.SETTINGS.keys() - parameters.NETWORK))
+def test_networks_run_along_edges_and_their_ends_are_settled(name):
+    obj = start(pairs(START))
+    with pytest.raises(TypeError, match=name):
+        run(**{name: parameters.SETTINGS[name]["default"]})
+    with pytest.raises(TypeError, match=name):
+        api.optimize_seams(obj, **{name: parameters.SETTINGS[name]["default"]})
+
+
+# ---- random networks
+
+
+def random_seams(rng, obj):
+    """Borders of random regions, some of them taken away again, and some lone edges."""
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.edges.ensure_lookup_table()
+    centres = np.array([face.calc_center_median() for face in bm.faces])
+    seeds = centres[rng.choice(len(centres), int(rng.integers(2, 8)), replace=False)]
+    distances = np.linalg.norm(centres[:, None] - seeds, axis=2) * rng.uniform(1, 1.2, (len(centres), len(seeds)))
+    region = np.argmin(distances, axis=1)
+    keep = rng.random() < 0.5
+    return [
+        tuple(vertex.index for vertex in edge.verts)
+        for edge in bm.edges
+        if (len({region[face.index] for face in edge.link_faces}) > 1 and (keep or rng.random() < 0.97))
+        or rng.random() < 0.004
+    ]
+
+
+def random_body(rng):
+    kind = rng.integers(4)
+    if kind == 0:
+        obj = grooved_cylinder(depth=float(rng.uniform(0, 0.4)))
+    else:
+        add = [
+            lambda: bpy.ops.mesh.primitive_torus_add(major_segments=28, minor_segments=12),
+            lambda: bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4),
+            lambda: bpy.ops.mesh.primitive_grid_add(x_subdivisions=16, y_subdivisions=20),
+        ][kind - 1]
+        add()
+        obj = bpy.context.object
+    for vertex, shift in zip(obj.data.vertices, rng.normal(0, 0.02, (len(obj.data.vertices), 3))):
+        vertex.co = [c + s for c, s in zip(vertex.co, shift)]
+    return obj
+
+
+def hide_some(rng, obj):
+    bm = bmesh.from_edit_mesh(obj.data)
+    for face in bm.faces:
+        if rng.random() < 0.02:
+            face.hide_set(True)
+    bmesh.update_edit_mesh(obj.data)
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_islands_keep_their_number(seed):
+    rng = np.random.default_rng(seed)
+    obj = random_body(rng)
+    edit(obj)
+    if seed % 4 == 3:
+        hide_some(rng, obj)
+    set_flag(obj, random_seams(rng, obj), "seam")
+    if seed % 2:
+        shown = {frozenset(state[:2]) for state in everything(obj)["edges"] if not state[3]}
+        select(obj, [pair for pair in sorted(map(sorted, flagged(obj, "seam") & shown)) if rng.random() < 0.9])
+    before, count = everything(obj), islands(obj)
+    ran = run(width=int(rng.integers(1, 6)), min_salience=0.0, selected_only=bool(seed % 2))
+    after = everything(obj)
+    assert (after["edges"] != before["edges"]) == (ran == {"FINISHED"})
+    assert islands(obj) == count
+    assert [state[-3:] for state in after["faces"]] == [state[-3:] for state in before["faces"]]
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert not obj.data.validate(verbose=True)

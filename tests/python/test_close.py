@@ -1,0 +1,228 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Open chains closed round the limb that they lie on."""
+
+import meshes
+import mrcontour as mrc
+import numpy as np
+import pytest
+from conftest import surface_of
+
+SHARES = (0.25, 1 / 3, 0.5)
+COLUMNS = 28
+
+
+def grid_limb(kind, rng, rows=45):
+    """A limb of `rows` rings whose axis is z, bent ones apart, triangles and quads mixed, with noise."""
+    along = np.arange(rows) / (rows - 1)
+    radius = {
+        "cylinder": np.full(rows, 1.0),
+        "cone": 1.3 - 0.7 * along,
+        "grooved": 1.0 - 0.25 * np.exp(-(((along - 0.5) / 0.04) ** 2)),
+        "tapering": 0.8 + 0.3 * np.cos(4 * along),
+    }[kind]
+    return meshes.tube(radius, COLUMNS, step=0.2, split_share=rng.uniform(), rng=rng, noise=0.01)
+
+
+def limb(rng):
+    """A random limb with the centre and two directions of a plane that its axis crosses, in the middle of it."""
+    kind = rng.choice(["cylinder", "cone", "grooved", "tapering", "bent"])
+    if kind != "bent":
+        return grid_limb(kind, rng), np.zeros(3), np.eye(3)[:2]
+    middle = np.array([1, 1, 0]) / np.sqrt(2)
+    return meshes.bent_tube(rng, rows=45, columns=COLUMNS), 4 * middle, np.array([middle, [0, 0, 1]])
+
+
+def rough_ring(rng, lowest=19, highest=25):
+    return meshes.zigzag_contour(rng, COLUMNS, lowest, highest, step_chance=rng.uniform(0, 0.6))
+
+
+def length_of(mesh, contour, closed=True):
+    points = mesh.positions[np.append(contour, contour[0]) if closed else contour]
+    return np.linalg.norm(np.diff(points, axis=0), axis=1).sum()
+
+
+def part_of(mesh, ring, share, rng):
+    """A chain along a ring, from a random place on, that has this share of its length; in a random direction."""
+    ring = np.roll(ring, rng.integers(len(ring)))
+    steps = np.linalg.norm(np.diff(mesh.positions[np.append(ring, ring[0])], axis=0), axis=1)
+    count = max(2, int(np.searchsorted(np.cumsum(steps), share * steps.sum())) + 1)
+    return ring[:count][:: rng.choice([-1, 1])].copy()
+
+
+def winding(mesh, loop, centre, plane):
+    """How often a loop goes round the axis through the centre."""
+    x, y = plane @ (mesh.positions[loop] - centre).T
+    steps = np.diff(np.unwrap(np.arctan2(np.append(y, y[0]), np.append(x, x[0]))))
+    return round(steps.sum() / (2 * np.pi))
+
+
+def edges_of(loop):
+    return {frozenset(pair) for pair in zip(loop.tolist(), np.roll(loop, -1).tolist(), strict=True)}
+
+
+def check_simple(mesh, loop, chain):
+    """It begins with the chain, passes no vertex twice, and follows the mesh's edges."""
+    np.testing.assert_array_equal(loop[: len(chain)], chain)
+    assert len(set(loop.tolist())) == len(loop)
+    assert edges_of(loop) <= {frozenset(pair) for pair in mesh.real_edges().tolist()}
+
+
+@pytest.mark.parametrize("share", SHARES)
+def test_part_of_a_ring_is_closed_once_round_the_limb(share):
+    for seed in range(70):
+        rng = np.random.default_rng([seed, round(100 * share)])
+        mesh, centre, plane = limb(rng)
+        ring = rough_ring(rng)
+        chain = part_of(mesh, ring, share, rng)
+        loop = mrc.close_contour(surface_of(mesh), chain)
+        check_simple(mesh, loop, chain)
+        assert abs(winding(mesh, loop, centre, plane)) == 1, seed
+        assert length_of(mesh, loop) <= 1.3 * length_of(mesh, ring), seed
+
+
+@pytest.mark.parametrize("count", [2, 3, 4, 27])
+def test_the_shortest_and_the_longest_chain_go_round(count):
+    """A single edge of a straight ring is enough, and a ring that lacks one edge takes just this."""
+    for seed in range(10):
+        rng = np.random.default_rng(seed)
+        mesh = grid_limb(rng.choice(["cylinder", "grooved"]), rng)
+        ring = 22 * COLUMNS + np.roll(np.arange(COLUMNS), rng.integers(COLUMNS))
+        loop = mrc.close_contour(surface_of(mesh), ring[:count])
+        check_simple(mesh, loop, ring[:count])
+        assert abs(winding(mesh, loop, np.zeros(3), np.eye(3)[:2])) == 1
+        assert length_of(mesh, loop) <= 1.3 * length_of(mesh, ring)
+    assert count < 27 or edges_of(loop) == edges_of(ring)
+
+
+def test_round_the_tube_of_a_torus():
+    for seed in range(20):
+        rng = np.random.default_rng(seed)
+        mesh = meshes.torus(20, 60, rng=rng, split_share=rng.uniform(), noise=0.01)
+        ring = 60 * np.arange(20) + rng.integers(60)
+        loop = mrc.close_contour(surface_of(mesh), part_of(mesh, ring, 0.3, rng))
+        assert winding(mesh, loop, np.zeros(3), np.eye(3)[:2]) == 0
+        direction = mesh.positions[ring].mean(axis=0)
+        around = np.array([direction / np.linalg.norm(direction), [0, 0, 1]])
+        assert abs(winding(mesh, loop, direction, around)) == 1
+
+
+def test_round_a_thin_limb():
+    """A flat section, four times as wide as thick."""
+    for seed in range(20):
+        rng = np.random.default_rng(seed)
+        mesh = grid_limb("cylinder", rng)
+        flat = mesh.moved(mesh.positions * [1.0, 0.25, 1.0])
+        chain = part_of(flat, rough_ring(rng), 1 / 3, rng)
+        assert abs(winding(flat, mrc.close_contour(surface_of(flat), chain), np.zeros(3), np.eye(3)[:2])) == 1
+
+
+def test_round_a_finger_and_not_over_its_tip():
+    for seed in range(20):
+        rng = np.random.default_rng(seed)
+        mesh, base = meshes.finger(rng)
+        base = np.asarray(base)
+        loop = mrc.close_contour(surface_of(mesh), part_of(mesh, base, 0.25, rng))
+        centre = mesh.positions[base].mean(axis=0)
+        assert abs(winding(mesh, loop, centre, np.eye(3)[:2])) == 1
+        radius = np.linalg.norm(mesh.positions[base] - centre, axis=1).mean()
+        assert np.abs(mesh.positions[loop, 2] - centre[2]).max() < radius
+        assert length_of(mesh, loop) <= 1.3 * length_of(mesh, base)
+
+
+def test_reversal_gives_the_same_loop():
+    """Also where many paths are equally short."""
+    for seed in range(20):
+        rng = np.random.default_rng(seed)
+        mesh = meshes.tube(np.full(30, 1.0), COLUMNS, step=0.2) if seed % 2 else limb(rng)[0]
+        chain = part_of(mesh, rough_ring(rng, 12, 17), rng.choice(SHARES), rng)
+        surface = surface_of(mesh)
+        there, back = mrc.close_contour(surface, chain), mrc.close_contour(surface, chain[::-1].copy())
+        np.testing.assert_array_equal(np.roll(there[::-1], len(chain)), back)
+
+
+def test_rigid_motion_scale_and_renumbering_change_nothing():
+    for seed in range(20):
+        rng = np.random.default_rng(seed)
+        mesh, _, _ = limb(rng)
+        chain = part_of(mesh, rough_ring(rng), rng.choice(SHARES), rng)
+        loop = mrc.close_contour(surface_of(mesh), chain)
+        for other in (
+            meshes.rigidly_moved(mesh, rng),
+            mesh.moved(mesh.positions * 1e-3),
+            mesh.moved(mesh.positions * 1e4),
+        ):
+            np.testing.assert_array_equal(mrc.close_contour(surface_of(other), chain), loop)
+        other, number = meshes.renumbered(mesh, rng)
+        np.testing.assert_array_equal(mrc.close_contour(surface_of(other), number[chain]), number[loop])
+
+
+def test_faces_far_away_change_nothing():
+    """The same limb, three times as long."""
+    for seed in range(10):
+        rng = np.random.default_rng(seed)
+        mesh = grid_limb("grooved", rng)
+        faces = [*mesh.faces, *meshes.grid_faces(91, COLUMNS)[44 * COLUMNS :]]
+        angle = 2 * np.pi * np.arange(COLUMNS) / COLUMNS
+        rest = [np.column_stack([np.cos(angle), np.sin(angle), np.full(COLUMNS, 0.2 * row)]) for row in range(45, 91)]
+        longer = meshes.polygon_mesh(np.concatenate([mesh.positions, *rest]), faces)
+        chain = part_of(mesh, rough_ring(rng), 0.3, rng)
+        np.testing.assert_array_equal(
+            mrc.close_contour(surface_of(longer), chain), mrc.close_contour(surface_of(mesh), chain)
+        )
+
+
+@pytest.mark.parametrize("share", SHARES)
+def test_the_groove_is_found_from_part_of_a_ring(share):
+    """Where the chain lies within three rings of the groove, wherever it begins."""
+    options = mrc.Options(flow="harmonic", width=8, iterations=2, length_bias=2.0, anchor=0.5)
+    for seed in range(70):
+        rng = np.random.default_rng([seed, round(100 * share)])
+        mesh = grid_limb("grooved", rng)
+        chain = part_of(mesh, rough_ring(rng, 20, 25), share, rng)
+        surface = surface_of(mesh)
+        result = mrc.optimize(surface, mrc.close_contour(surface, chain), options=options)
+        assert np.abs(np.asarray(result.vertices) // COLUMNS - 22).max() <= 1, seed
+
+
+# ---- what cannot be closed
+
+
+def plane(rows=12, columns=15):
+    x, y = np.meshgrid(np.arange(columns) * 1.0, np.arange(rows) * 1.0)
+    points = np.stack([x, y, np.zeros_like(x)], axis=-1).reshape(-1, 3)
+    return meshes.polygon_mesh(points, meshes.grid_faces(rows, columns, closed_columns=False))
+
+
+def test_nothing_leads_round_on_a_plane():
+    with pytest.raises(ValueError, match="vertex 83.*vertex 79.*draw the chain on a limb"):
+        mrc.close_contour(surface_of(plane()), np.arange(79, 84))
+
+
+def test_hidden_faces_and_slits_are_not_crossed():
+    """A slit all along the limb's other side, or hidden faces there, leave no way round."""
+    mesh = meshes.tube(np.full(20, 1.0), COLUMNS, step=0.2)
+    chain = np.arange(5, 10) + 10 * COLUMNS
+    behind = [i for i, face in enumerate(mesh.faces) if {v % COLUMNS for v in face} & {20, 21}]
+    assert abs(winding(mesh, mrc.close_contour(surface_of(mesh), chain), np.zeros(3), np.eye(3)[:2])) == 1
+    with pytest.raises(ValueError, match="hidden"):
+        mrc.close_contour(surface_of(mesh, hidden_faces=np.array(behind, dtype=np.int32)), chain)
+    slit = meshes.polygon_mesh(mesh.positions, [face for i, face in enumerate(mesh.faces) if i not in behind])
+    with pytest.raises(ValueError, match="border"):
+        mrc.close_contour(surface_of(slit), chain)
+
+
+@pytest.mark.parametrize(
+    ("chain", "message"),
+    [
+        ([40], "1 vertices"),
+        ([], "0 vertices"),
+        ([40, 41, 40], "vertex 40 twice"),
+        ([40, 45], "40 and 45 are not joined"),
+        ([40, 99999], "99999 is out of range"),
+        ([0, 1, 2], r"\(0, 1\).*border"),
+    ],
+)
+def test_bad_chains_are_named(chain, message):
+    mesh = meshes.tube(np.full(20, 1.0), COLUMNS)
+    with pytest.raises(ValueError, match=message):
+        mrc.close_contour(surface_of(mesh), np.array(chain, dtype=np.int32))
