@@ -45,10 +45,8 @@ class Job:
         return not self._thread.is_alive()
 
     def finish(self):
-        """Waits for the end; raises what the search raised, or Cancelled."""
+        """Waits for the end; raises what the search raised, Cancelled where it was left."""
         self.wait()
-        if self._left.is_set():
-            raise Cancelled
         if self._error:
             raise self._error
 
@@ -106,17 +104,16 @@ class SearchOperator:
 
     def modal(self, context, event):
         if event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
-            self._job.cancel()
-        elif event.type == "TIMER":
+            self._job.cancel()  # nobody waits for its end
+            self._end(context)
+            return self.give_up(context, "INFO", report.CANCELLED)
+        if event.type == "TIMER":
             context.window_manager.progress_update(100.0 * self._job.share)
             context.workspace.status_text_set(f"{self.bl_label}: {self._job.share:.0%}    ESC: Cancel")
         if not self._job.wait(0.0):
             return {"RUNNING_MODAL"}
         work, job = self._end(context)
-        try:
-            job.finish()
-        except Cancelled:
-            return self.give_up(context, "INFO", report.CANCELLED)
+        job.finish()
         if not self.is_current(context, work):
             return self.give_up(context, "WARNING", report.CHANGED_MEANWHILE)
         return self.apply(context, work)

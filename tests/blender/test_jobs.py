@@ -180,9 +180,9 @@ def prepared():
     return obj
 
 
-def until_done(operator, context, event=TIMER):
+def until_done(operator, context):
     for _ in range(10**6):
-        done = operator.modal(context, event)
+        done = operator.modal(context, TIMER)
         if done != {"RUNNING_MODAL"}:
             return done
     raise AssertionError("the search does not end")
@@ -216,7 +216,9 @@ def test_left_with_escape_the_mesh_is_as_it_was(kind, event, impatient, last):
     obj, operator, context = prepared(), stand_in(kind), Context()
     before = everything(obj)
     operator.invoke(context, None)
-    assert until_done(operator, context, event) == {"CANCELLED"}
+    job = operator._job
+    assert operator.modal(context, event) == {"CANCELLED"}
+    assert job.wait(60)
     assert everything(obj) == before
     assert operator.reported == [({"INFO"}, report.CANCELLED)]
     assert last.message == report.CANCELLED
