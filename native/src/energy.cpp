@@ -111,7 +111,7 @@ double Energy::attraction(const SurfacePoint& point) const {
 }
 
 double Energy::crease_cost(int halfedge) const {
-    if (options_.crease == 0.0 || surface_.diagonal(halfedge)) return plain_crease_cost();
+    if (options_.crease == 0.0 || halfedge < 0 || surface_.diagonal(halfedge)) return plain_crease_cost();
     return plain_crease_cost() * std::min(3.0, std::exp(3.0 * std::sin(field_.dihedral(halfedge))));
 }
 

@@ -12,7 +12,6 @@
 #include <numeric>
 #include <set>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace mrc {
@@ -364,9 +363,7 @@ class GraphBuilder {
 
     ChordEnd chord_end(int chord, const Frame& frame) const {
         const Chord& c = graph_.chords[chord];
-        const int halfedge = sites_[chord].halfedge;
-        return energy_.chord_end(frame, position(c.head) - position(c.tail),
-                                 halfedge >= 0 ? energy_.crease_cost(halfedge) : energy_.plain_crease_cost());
+        return energy_.chord_end(frame, position(c.head) - position(c.tail), energy_.crease_cost(sites_[chord].halfedge));
     }
     Terminal half(int node, const Frame& frame, const ChordEnd& in, const ChordEnd& out) const {
         const ArcWeights weights = energy_.weights(frame);

@@ -83,8 +83,7 @@ class Joiner {
 
     ChordEnd end_of(int chord) const {
         const Chord& c = chords_.chords[chord];
-        const int halfedge = chords_.sites[chord].halfedge;
-        const double crease = halfedge >= 0 ? energy_.crease_cost(halfedge) : energy_.plain_crease_cost();
+        const double crease = energy_.crease_cost(chords_.sites[chord].halfedge);
         return energy_.chord_end(frames_[point_], positions_[c.head] - positions_[c.tail], crease);
     }
 

@@ -121,7 +121,7 @@ void Optimization::search(Partition* partition, int number, const Beat& beat) {
     }
     const Flow flow = stopwatch_.time("flow", [&] { return make_flow(*patch_, band_, options_); });
     if (beat) beat();
-    stopwatch_.time("curvature", [&] { return prepare_curvature(beat); });
+    stopwatch_.time("curvature", [&] { prepare_curvature(beat); });
     const std::optional<EdgeForm> region = make_region_form(flow);
     const ContourGraph graph = stopwatch_.time("graph", [&] {
         return make_graph(surface_, *patch_, band_, flow, setting_->energy, options_, wishes_, steiner_,
@@ -141,14 +141,13 @@ void Optimization::search(Partition* partition, int number, const Beat& beat) {
     moving_ = moved_ && !featureless();
 }
 
-/// Evaluates the curvature of all vertices of the band at once; gives their number.
-std::size_t Optimization::prepare_curvature(const Beat& beat) const {
+/// Evaluates the curvature of all vertices of the band at once.
+void Optimization::prepare_curvature(const Beat& beat) const {
     std::vector<int> vertices;
     for (std::size_t v = 0; v < patch_->vertex.size(); ++v) {
         if (band_.side[v] != Side::outside) vertices.push_back(patch_->vertex[v]);
     }
     setting_->field.prepare(vertices, beat);
-    return vertices.size();
 }
 
 Result Optimization::finish() {

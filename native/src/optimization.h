@@ -23,13 +23,24 @@ class Stopwatch {
 
     template <class Stage>
     auto time(const char* name, Stage&& stage) {
-        const auto start = std::chrono::steady_clock::now();
-        auto result = stage();
-        seconds_[name] += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        return result;
+        const Lap lap(seconds_[name]);
+        return stage();
     }
 
   private:
+    /// Adds the time of its own life.
+    class Lap {
+      public:
+        explicit Lap(double& seconds) : seconds_(seconds) {}
+        ~Lap() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+        Lap(const Lap&) = delete;
+        Lap& operator=(const Lap&) = delete;
+
+      private:
+        double& seconds_;
+        const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    };
+
     std::map<std::string, double>& seconds_;
 };
 
@@ -84,7 +95,7 @@ class Optimization {
     Band band_;
     Territory territory_;
 
-    std::size_t prepare_curvature(const Beat& beat) const;
+    void prepare_curvature(const Beat& beat) const;
     bool below(double a, double b) const;
     void accept(const Contour& found, const std::optional<EdgeForm>& region);
     void conclude(const ContourGraph& graph, const RatioResult& best, double before);

@@ -91,7 +91,8 @@ class Energy {
         return end;
     }
 
-    /// What a chord along a mesh edge costs for each unit of length: crease K min(3, exp(3 sin beta)), beta its signed dihedral.
+    /// What a chord along a mesh edge costs for each unit of length: crease K min(3, exp(3 sin beta)), beta its signed dihedral;
+    /// of one off the mesh's edges (-1), crease K.
     double crease_cost(int halfedge) const;
     /// The same of a chord off the mesh's edges.
     double plain_crease_cost() const { return options_.crease * scales_.K; }
