@@ -2,10 +2,10 @@
 """The operators: they alone talk to the user."""
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from . import native, outputs, panels, report, selection
-from .parameters import SETTINGS
+from .parameters import CONSTRAINTS, SETTINGS
 
 
 class ContourSettings:
@@ -29,6 +29,23 @@ class ContourSettings:
 
     def settings(self):
         return {name: getattr(self, name) for name in SETTINGS}
+
+
+class ContourConstraints:
+    """The properties of the constraints table, for operators on selected contours."""
+
+    required_group: StringProperty(**CONSTRAINTS["required_group"])
+    barrier_marks: EnumProperty(**CONSTRAINTS["barrier_marks"])
+    attractor_group: StringProperty(**CONSTRAINTS["attractor_group"])
+    attractor_marks: EnumProperty(**CONSTRAINTS["attractor_marks"])
+    attractor_strength: FloatProperty(**CONSTRAINTS["attractor_strength"])
+    attractor_radius: FloatProperty(**CONSTRAINTS["attractor_radius"])
+    region_source: EnumProperty(**CONSTRAINTS["region_source"])
+    region_layer: StringProperty(**CONSTRAINTS["region_layer"])
+    region_strength: FloatProperty(**CONSTRAINTS["region_strength"])
+
+    def constraints(self):
+        return {name: getattr(self, name) for name in CONSTRAINTS}
 
 
 class ContourOutput:
@@ -70,7 +87,7 @@ class ContourOutput:
         return outputs.Wish(self.output, self.keep_old, self.fill_holes, self.merge, face_mode)
 
 
-class MESH_OT_optimize_contour(ContourSettings, ContourOutput, bpy.types.Operator):
+class MESH_OT_optimize_contour(ContourSettings, ContourConstraints, ContourOutput, bpy.types.Operator):
     """Move each selected loop or chain to the part boundary nearby, where the surface is most concave for its length"""
 
     bl_idname = "mesh.optimize_contour"
@@ -94,7 +111,8 @@ class MESH_OT_optimize_contour(ContourSettings, ContourOutput, bpy.types.Operato
         except native.Unavailable as error:
             return self._cancel(context, "ERROR", str(error))
         wish = self.wish(tuple(context.tool_settings.mesh_select_mode) == (False, False, True))
-        parts = selection.optimize_selection(context.objects_in_mode_unique_data, wish.face_mode, self.settings())
+        settings = self.settings() | self.constraints()
+        parts = selection.optimize_selection(context.objects_in_mode_unique_data, wish.face_mode, settings)
         outputs.refuse(parts, wish)
         outcomes = [outcome for part in parts for outcome in part.outcomes]
         if not outcomes:
@@ -102,21 +120,27 @@ class MESH_OT_optimize_contour(ContourSettings, ContourOutput, bpy.types.Operato
         warnings = [warning for part in parts for warning in part.warnings]
         message = report.summary(outcomes, warnings)
         level = "WARNING" if warnings or any(outcome.problem for outcome in outcomes) else "INFO"
+        if any(part.outside for part in parts):
+            outputs.select_vertices(context, {part.obj: part.outside for part in parts})
+            return self._finish(context, level, message, outcomes)
         if not outputs.changes_anything(parts, wish):
             return self._cancel(context, level, message, outcomes)
         outputs.write(context, parts, wish)
-        panels.show_result(context, message, outcomes)
-        self.report({level}, message)
-        return {"FINISHED"}
+        return self._finish(context, level, message, outcomes)
 
     def draw(self, context):
         panels.draw_settings(self.layout, self)
+        panels.draw_constraints(self.layout, self, context.object)
         panels.draw_more_settings(self.layout, self)
 
     def _cancel(self, context, level, message, outcomes=()):
+        self._finish(context, level, message, outcomes)
+        return {"CANCELLED"}
+
+    def _finish(self, context, level, message, outcomes):
         panels.show_result(context, message, outcomes)
         self.report({level}, message)
-        return {"CANCELLED"}
+        return {"FINISHED"}
 
 
 def register():

@@ -72,6 +72,33 @@ def draw_more_settings(layout, settings):
     row.prop(settings, "merge")
 
 
+def draw_constraints(layout, settings, obj):
+    """What contours keep to; names of layers are picked from those of the active object."""
+    layout.use_property_split = True
+    layout.use_property_decorate = False
+    layout.prop_search(settings, "required_group", obj, "vertex_groups")
+    _draw_marks(layout, settings, "barrier_marks")
+    layout.separator()
+    layout.prop_search(settings, "attractor_group", obj, "vertex_groups")
+    _draw_marks(layout, settings, "attractor_marks")
+    column = layout.column()
+    column.enabled = bool(settings.attractor_group or settings.attractor_marks)
+    column.prop(settings, "attractor_strength")
+    column.prop(settings, "attractor_radius")
+    layout.separator()
+    layout.prop(settings, "region_source")
+    column = layout.column()
+    column.enabled = settings.region_source != "NONE"
+    places = {"ATTRIBUTE": (obj.data, "attributes"), "COLOR": (obj.data, "color_attributes")}
+    column.prop_search(settings, "region_layer", *places.get(settings.region_source, (obj, "vertex_groups")))
+    column.prop(settings, "region_strength")
+
+
+def _draw_marks(layout, settings, name):
+    """Three names beside a split would not fit into a sidebar of the usual width, nor in a column of their own."""
+    layout.row(align=True).prop(settings, name, expand=True)
+
+
 class VIEW3D_PT_minimum_ratio_contours(bpy.types.Panel):
     bl_label = "Minimum Ratio Contours"
     bl_space_type = "VIEW_3D"
@@ -103,6 +130,19 @@ class VIEW3D_PT_minimum_ratio_contours_more(bpy.types.Panel):
 
     def draw(self, context):
         draw_more_settings(self.layout.column(), context.window_manager.operator_properties_last(OPERATOR))
+
+
+class VIEW3D_PT_minimum_ratio_contours_constraints(bpy.types.Panel):
+    bl_label = "Constraints"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Contours"
+    bl_parent_id = "VIEW3D_PT_minimum_ratio_contours"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        settings = context.window_manager.operator_properties_last(OPERATOR)
+        draw_constraints(self.layout.column(), settings, context.object)
 
 
 def _draw_result(box, context, last):
@@ -142,6 +182,7 @@ _CLASSES = (
     ContourNumbers,
     LastResult,
     VIEW3D_PT_minimum_ratio_contours,
+    VIEW3D_PT_minimum_ratio_contours_constraints,
     VIEW3D_PT_minimum_ratio_contours_more,
 )
 

@@ -40,7 +40,7 @@ def summary(outcomes, notes=()):
     if left:
         several_places = len({outcome.place for outcome in outcomes}) > 1
         texts = [f"{outcome.place}: {outcome.problem}" if several_places else outcome.problem for outcome in left]
-        sentences.append("Left as it is: " + shortened(texts, "; "))
+        sentences.append("Left as it is: " + shortened(list(dict.fromkeys(texts)), "; "))
     return ". ".join([*sentences, *dict.fromkeys(notes)])
 
 
@@ -91,6 +91,16 @@ def linked(obj):
 def branching(vertices):
     noun = "vertex" if len(vertices) == 1 else "vertices"
     return f"a selection that branches at {noun} {shortened(vertices)}; select single loops, or faces in face mode"
+
+
+def no_layer(kind, name):
+    if not name:
+        return f"no {kind} is named: choose one under Constraints, or none at all"
+    return f"there is no {kind} named {name}: choose another one under Constraints, or clear the field"
+
+
+def open_region():
+    return "an open chain encloses no region: set Region to None under Constraints, or select a closed loop"
 
 
 def loose(edges, closed=True):

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from . import api, contours, mesh_access, report
+from . import api, constraints, contours, mesh_access, native, parameters, report
+from .constraint_arrays import OutsideBand
 
 
 @dataclass
@@ -17,6 +18,7 @@ class Part:
     outcomes: list
     warnings: list
     mirrored: bool = False  # whether there are contours that were not selected, but their mirror images
+    outside: tuple = ()  # required vertices where nothing is searched
 
     def done(self):
         """The contours that are output."""
@@ -42,8 +44,9 @@ def _optimize_part(obj, objects, face_mode, settings):
     outcomes = _outcomes(obj.name, edges, face_mode)
     for outcome in outcomes:
         outcome.problem = outcome.problem or _problem(outcome, selection.loose)
-    _optimize(obj, objects, [outcome for outcome in outcomes if not outcome.problem], settings)
-    part = Part(obj, outcomes, [], mirrored=len(edges) > len(selection.edges))
+    sound = [outcome for outcome in outcomes if not outcome.problem]
+    outside = _optimize(obj, objects, sound, face_mode, settings) if sound else ()
+    part = Part(obj, outcomes, [], mirrored=len(edges) > len(selection.edges), outside=outside)
     if part.done():
         part.warnings = _warnings(obj) + [report.not_mirrored(obj.name)] * (mirror and images is None)
     return part
@@ -82,30 +85,49 @@ def _problem(outcome, loose_edges):
     return ""
 
 
-def _optimize(obj, objects, outcomes, settings):
-    """Gives each outcome its result, or the problem that keeps it from one."""
-    if not outcomes:
-        return
+def _optimize(obj, objects, outcomes, face_mode, settings):
+    """Gives each outcome its result, or the problem that keeps it from one; returns required vertices out of reach."""
+    settings, wanted = parameters.split(settings)
     try:
-        _fill_in(api.surface_of(obj, beside=objects), outcomes, settings)
+        asked = constraints.read(obj, **wanted)
+        surface = api.surface_of(obj, beside=objects)
+        if asked is not None and asked.density is not None:
+            outcomes = _prepare_for_region(surface, outcomes, face_mode, asked)
+        _fill_in(surface, outcomes, asked, settings)
     except ValueError as error:
         for outcome in outcomes:
-            outcome.problem = str(error)
+            outcome.problem = outcome.problem or str(error)
+        return error.vertices if isinstance(error, OutsideBand) else ()
+    return ()
 
 
-def _fill_in(surface, outcomes, settings):
+def _prepare_for_region(surface, outcomes, face_mode, asked):
+    """Those that can enclose a region, with what is painted to their left; in face mode the selected part is there."""
+    for outcome in outcomes:
+        if not outcome.closed:
+            outcome.problem = report.open_region()
+        elif not face_mode and asked.paints_the_right(native.module(), surface, outcome.vertices):
+            outcome.vertices = outcome.vertices[::-1].copy()
+    return [outcome for outcome in outcomes if outcome.closed]
+
+
+def _fill_in(surface, outcomes, asked, settings):
     """Optimizes all together. Where one of them cannot be a contour, that one is left out and the others go on."""
+    if not outcomes:
+        return
     vertices, closed = [outcome.vertices for outcome in outcomes], [outcome.closed for outcome in outcomes]
     try:
-        results = api.optimize_all_on(surface, vertices, closed=closed, **settings)
+        results = api.optimize_all_on(surface, vertices, closed=closed, constraints=asked, **settings)
+    except OutsideBand:
+        raise
     except ValueError:
+        barriers = () if asked is None else asked.barriers_beside(vertices, closed)
         for outcome in outcomes:
-            outcome.problem = api.problem_on(surface, outcome.vertices, closed=outcome.closed)
+            outcome.problem = api.problem_on(surface, outcome.vertices, outcome.closed, barriers)
         sound = [outcome for outcome in outcomes if not outcome.problem]
         if len(sound) == len(outcomes):
             raise
-        if sound:
-            _fill_in(surface, sound, settings)
+        _fill_in(surface, sound, asked, settings)
         return
     for outcome, result in zip(outcomes, results):
         outcome.result = result
