@@ -10,6 +10,7 @@ from .contours import contour_edges
 NOTHING_SELECTED = (
     "Nothing to optimize: select closed loops or open chains of edges, or faces in face mode to use their borders"
 )
+NO_FACES = "there are no faces, which alone are curved"
 _NAMED = 3  # of several alike, only so many are named
 
 
@@ -101,6 +102,20 @@ def no_layer(kind, name):
 
 def open_region():
     return "an open chain encloses no region: set Region to None under Constraints, or select a closed loop"
+
+
+def curvature_shown(count, problems, values, colors):
+    sentences = []
+    if count:
+        places = "1 mesh" if count == 1 else f"{count} meshes"
+        sentences = [f"Concavity of {places} is in the attributes '{values}', in 1 / length, and '{colors}'"]
+    if problems:
+        sentences.append("Not shown: " + shortened(problems, "; "))
+    return ". ".join(sentences)
+
+
+def name_taken(name):
+    return f"another kind of attribute is named '{name}': rename or remove it"
 
 
 def loose(edges, closed=True):

@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Colours for curvatures, on a diverging scale. Needs no Blender."""
+
+import numpy as np
+
+# Valleys blue, flat places nearly white, convex ones red: ColorBrewer's RdBu, which colour-blind people can read too.
+_PLACES = (-1.0, -0.5, 0.0, 0.5, 1.0)
+_COLORS = np.array(((5, 48, 97), (67, 147, 195), (247, 247, 247), (244, 165, 130), (103, 0, 31))) / 255
+
+
+def colors(curvatures, quantile):
+    """(n, 4) linear colours; from this quantile of their sizes on, curvatures have the full colour."""
+    curvatures = np.nan_to_num(np.asarray(curvatures, dtype=float))
+    sizes = np.abs(curvatures[curvatures != 0])
+    full = np.quantile(sizes, quantile) if len(sizes) else 1.0
+    shades = np.column_stack([np.interp(curvatures / full, _PLACES, channel) for channel in _COLORS.T])
+    return np.column_stack([_linear(shades), np.ones(len(shades))])
+
+
+def _linear(srgb):
+    """Blender keeps colours linear (IEC 61966-2-1)."""
+    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
