@@ -14,9 +14,9 @@ bl_info = {
 
 def _modules():
     # Imported here, not above: the modules that do without bpy can then be imported outside Blender.
-    from . import api, operators, panels, show_curvature
+    from . import api, menus, operators, panels, preferences, presets, show_curvature
 
-    return api, operators, show_curvature, panels
+    return api, operators, show_curvature, panels, preferences, presets, menus
 
 
 def register():

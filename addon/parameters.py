@@ -201,7 +201,7 @@ CONSTRAINTS = {
     },
 }
 
-# Named settings that suit a kind of work; what a preset does not name takes the table's default.
+# Named settings that suit a kind of work; what a preset does not name takes the user's default.
 PRESETS = {
     "DEFAULT": ("Default", "What lands closest to where people draw part boundaries", {}),
     "NEAR": ("Tidy Up", "Only straighten the contour within a few rings of where it is", {"width": 3, "anchor": 2.0}),
@@ -248,9 +248,11 @@ def split(settings):
     return {name: value for name, value in settings.items() if name not in CONSTRAINTS}, constraints
 
 
-def preset_values(identifier):
-    """All settings of the table as a preset has them."""
-    return {name: row["default"] for name, row in SETTINGS.items()} | PRESETS[identifier][2]
+def preset_values(identifier, defaults=()):
+    """All settings of the table as a preset has them, with the user's own defaults where given."""
+    values = {name: row["default"] for name, row in SETTINGS.items()}
+    own = {name: value for name, value in dict(defaults).items() if name in SETTINGS}
+    return values | own | PRESETS[identifier][2]
 
 
 def native_options(**settings):

@@ -11,6 +11,13 @@ NOTHING_SELECTED = (
     "Nothing to optimize: select closed loops or open chains of edges, or faces in face mode to use their borders"
 )
 NO_FACES = "there are no faces, which alone are curved"
+_SALIENCES = (  # from this salience on, in words
+    (2.0, "clear boundary"),
+    (1.0, "good boundary"),
+    (0.5, "faint boundary"),
+    (0.25, "hardly concave"),
+    (-np.inf, "nothing concave here"),
+)
 _NAMED = 3  # of several alike, only so many are named
 
 
@@ -133,6 +140,21 @@ def shortened(items, separator=", "):
 
 def milliseconds(result):
     return 1000.0 * sum(result.statistics["seconds"].values())
+
+
+def salience(result):
+    """How far to trust a result, in words and as a number; empty where nothing was searched."""
+    if not result.statistics["passes"]:
+        return ""
+    words = next(words for least, words in _SALIENCES if result.salience >= least)
+    return f"{words.capitalize()} ({result.salience:.2f})"
+
+
+def length(result):
+    """Of the contour found, in object space."""
+    points = np.asarray(result.positions)
+    ends = np.roll(points, -1, axis=0) if result.closed else points[1:]
+    return float(np.linalg.norm(ends - points[: len(ends)], axis=1).sum())
 
 
 def _statuses(results):
