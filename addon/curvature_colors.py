@@ -3,9 +3,10 @@
 
 import numpy as np
 
-# Valleys blue, flat places nearly white, convex ones red: ColorBrewer's RdBu, which colour-blind people can read too.
+# Valleys blue, flat places nearly white, convex ones red: as ColorBrewer's RdBu, readable for the colour-blind too,
+# with brighter ends, since shading darkens valleys.
 _PLACES = (-1.0, -0.5, 0.0, 0.5, 1.0)
-_COLORS = np.array(((5, 48, 97), (67, 147, 195), (247, 247, 247), (244, 165, 130), (103, 0, 31))) / 255
+_COLORS = np.array(((10, 70, 230), (100, 170, 245), (247, 247, 247), (244, 165, 130), (190, 30, 45))) / 255
 
 
 def colors(curvatures, quantile):

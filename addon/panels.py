@@ -110,7 +110,7 @@ def _draw_marks(layout, settings, name):
 
 
 class VIEW3D_PT_minimum_ratio_contours(bpy.types.Panel):
-    bl_label = "Minimum Ratio Contours"
+    bl_label = "Contours"
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = "Contours"

@@ -115,7 +115,7 @@ def curvature_shown(count, problems, values, colors):
     sentences = []
     if count:
         places = "1 mesh" if count == 1 else f"{count} meshes"
-        sentences = [f"Concavity of {places} is in the attributes '{values}', in 1 / length, and '{colors}'"]
+        sentences = [f"Curvature of {places} is in the attributes '{values}', in 1 / length, and '{colors}'"]
     if problems:
         sentences.append("Not shown: " + shortened(problems, "; "))
     return ". ".join(sentences)

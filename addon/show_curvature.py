@@ -6,10 +6,10 @@ import bpy
 import numpy as np
 from bpy.props import BoolProperty, FloatProperty
 
-from . import api, mesh_access, native, panels, report
+from . import api, mesh_access, native, report
 from .curvature_colors import colors
 
-VALUES, COLORS = "kappa_min", "Concavity"
+VALUES, COLORS = "kappa_min", "Curvature"
 _KINDS = {VALUES: ("POINT", "FLOAT"), COLORS: ("POINT", "FLOAT_COLOR")}
 
 
@@ -17,7 +17,7 @@ class MESH_OT_show_curvature(bpy.types.Operator):
     """Color the mesh by its concavity, which draws the contours: valleys blue, flat places white, convex ones red"""
 
     bl_idname = "mesh.show_curvature"
-    bl_label = "Show Concavity"
+    bl_label = "Show Curvature"
     bl_options = {"REGISTER", "UNDO"}
 
     quantile: FloatProperty(
@@ -45,7 +45,7 @@ class MESH_OT_show_curvature(bpy.types.Operator):
     def poll(cls, context):
         if context.mode == "EDIT_MESH":
             return True
-        cls.poll_message_set("Concavity is shown in Edit Mode of a mesh")
+        cls.poll_message_set("Curvature is shown in Edit Mode of a mesh")
         return False
 
     def execute(self, context):
@@ -63,7 +63,6 @@ class MESH_OT_show_curvature(bpy.types.Operator):
         if shown and self.shade:
             _shade(context.space_data)
         message = report.curvature_shown(shown, problems, VALUES, COLORS)
-        panels.show_result(context, message, [])
         self.report({"WARNING" if problems else "INFO"}, message)
         return {"FINISHED" if shown else "CANCELLED"}
 

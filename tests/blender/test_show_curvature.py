@@ -24,12 +24,12 @@ def shown(obj):
     return values, colors.reshape(-1, 4)
 
 
-def test_the_groove_is_blue_and_the_values_are_the_native_ones(last):
+def test_the_groove_is_blue_and_the_values_are_the_native_ones(capfd):
     obj = grooved_cylinder()
     edit(obj)
     assert run() == {"FINISHED"}
     assert obj.data.color_attributes.active_color.name == show_curvature.COLORS
-    assert "'kappa_min', in 1 / length, and 'Concavity'" in last.message
+    assert "'kappa_min', in 1 / length, and 'Curvature'" in capfd.readouterr().out
     values, colors = shown(obj)
     native = np.asarray(api.curvature(obj).kappa_min)
     np.testing.assert_allclose(values, native, rtol=1e-6, atol=1e-6)
@@ -67,25 +67,26 @@ def test_the_radius_averages_and_a_lower_quantile_gives_more_contrast():
     assert deepest[1] == deepest[0] < deepest[2]
 
 
-def test_several_meshes_and_what_cannot_be_shown(last):
+def test_several_meshes_and_what_cannot_be_shown(capfd):
     obj, empty = grooved_cylinder(), mesh_object("Empty", [(0, 0, 0), (1, 0, 0)], edges=[(0, 1)])
     other = grooved_cylinder("Other")
     edit(obj, other, empty)
     assert run() == {"FINISHED"}
-    assert last.message.startswith("Concavity of 2 meshes is in")
-    assert last.message.endswith("Not shown: Empty: there are no faces, which alone are curved")
+    message = capfd.readouterr().out
+    assert "Curvature of 2 meshes is in" in message
+    assert "Not shown: Empty: there are no faces, which alone are curved" in message
     for mesh in (obj.data, other.data):
         assert show_curvature.COLORS in bmesh.from_edit_mesh(mesh).verts.layers.float_color
 
 
 @pytest.mark.parametrize("name", [show_curvature.VALUES, show_curvature.COLORS])
-def test_attributes_of_the_same_name_are_left_alone(name, last):
+def test_attributes_of_the_same_name_are_left_alone(name, capfd):
     obj = grooved_cylinder()
     obj.data.attributes.new(name, "INT", "FACE").data[0].value = 7
     edit(obj)
     before = everything(obj)
     assert run() == {"CANCELLED"}
-    assert f"another kind of attribute is named '{name}': rename or remove it" in last.message
+    assert f"another kind of attribute is named '{name}': rename or remove it" in capfd.readouterr().out
     assert everything(obj) == before
 
 
