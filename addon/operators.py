@@ -130,8 +130,10 @@ class MESH_OT_optimize_contour(ContourSettings, ContourConstraints, ContourOutpu
 
     def draw(self, context):
         panels.draw_settings(self.layout, self)
-        panels.draw_constraints(self.layout, self, context.object)
+        self.layout.separator()
         panels.draw_more_settings(self.layout, self)
+        self.layout.separator()
+        panels.draw_constraints(self.layout, self, context.object)
 
     def _cancel(self, context, level, message, outcomes=()):
         self._finish(context, level, message, outcomes)

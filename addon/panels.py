@@ -7,7 +7,7 @@ import bpy
 from bpy.props import CollectionProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
 from . import native, report
-from .parameters import MAIN, MORE
+from .parameters import CONSTRAINTS, MAIN, MORE
 
 OPERATOR = "mesh.optimize_contour"
 _SHOWN = 8  # contours with their numbers in the panel
@@ -105,8 +105,11 @@ def draw_constraints(layout, settings, obj):
 
 
 def _draw_marks(layout, settings, name):
-    """Three names beside a split would not fit into a sidebar of the usual width, nor in a column of their own."""
-    layout.row(align=True).prop(settings, name, expand=True)
+    """Below their label: beside it three names would not fit into a sidebar of the usual width."""
+    column = layout.column(align=True)
+    column.use_property_split = False
+    column.label(text=CONSTRAINTS[name]["name"])
+    column.row(align=True).prop(settings, name, expand=True)
 
 
 class VIEW3D_PT_minimum_ratio_contours(bpy.types.Panel):

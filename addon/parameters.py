@@ -142,7 +142,7 @@ CONSTRAINTS = {
         "default": "",
     },
     "barrier_marks": {
-        "name": "Barriers",
+        "name": "Barrier Edges",
         "description": "Marked edges that no contour crosses. Marks along the given contour do not count: they move",
         "items": _MARKS,
         "default": set(),
@@ -154,7 +154,7 @@ CONSTRAINTS = {
         "default": "",
     },
     "attractor_marks": {
-        "name": "Attract",
+        "name": "Attracting Edges",
         "description": "Marked edges that draw the contour onto themselves. Marks along the given contour do not count",
         "items": _MARKS,
         "default": set(),

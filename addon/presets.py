@@ -47,10 +47,22 @@ class VIEW3D_PT_minimum_ratio_contours_presets(PresetPanel, bpy.types.Panel):
 
     def draw(self, context):
         self.layout.emboss = "PULLDOWN_MENU"
+        self.layout.operator_context = "EXEC_DEFAULT"  # else adding asks for the name once more
         for name, (text, _, _) in PRESETS.items():
             self.layout.operator(MESH_OT_contour_preset.bl_idname, text=text).preset = name
         self.layout.separator()
-        super().draw(context)
+        if bpy.utils.preset_paths(self.preset_subdir):
+            super().draw(context)
+        else:
+            self._draw_add(context.window_manager)
+
+    def _draw_add(self, window_manager):
+        """As Blender's own last row; of a folder that is not there before the first preset Blender would complain."""
+        row = self.layout.row()
+        name = row.row()
+        name.emboss = "NORMAL"
+        name.prop(window_manager, "preset_name", text="")
+        row.operator(self.preset_add_operator, text="", icon="ADD").name = window_manager.preset_name
 
 
 _CLASSES = (MESH_OT_contour_preset, MESH_OT_contour_preset_add, VIEW3D_PT_minimum_ratio_contours_presets)

@@ -2,6 +2,8 @@
 """Presets, preferences, menus and the last result: what the user starts from and reads afterwards."""
 
 from pathlib import Path
+from types import SimpleNamespace
+from unittest.mock import MagicMock
 
 import bpy
 import pytest
@@ -88,6 +90,26 @@ def test_nothing_concave_is_said_in_words(last):
     select(obj, pairs(ring(8)))
     bpy.ops.mesh.optimize_contour()
     assert last.contours[0].salience.startswith("Nothing concave here (")
+
+
+def drawn(draw, settings):
+    """The names of the properties that a function draws, in a layout that only notes them."""
+    layout = MagicMock()
+    draw(layout, settings)
+    calls = [args for name, args, _ in layout.mock_calls if name.split(".")[-1] in ("prop", "prop_search")]
+    return [args[1] for args in calls if args[0] is settings]
+
+
+@pytest.mark.parametrize("source", ["NONE", "GROUP", "ATTRIBUTE", "COLOR"])
+def test_the_panels_show_every_setting_once(source):
+    """The redo panel draws an operator, the sidebar its remembered properties: a plain object has what both have."""
+    obj = grooved_cylinder()
+    rna = bpy.ops.mesh.optimize_contour.get_rna_type().properties[1:]
+    settings = SimpleNamespace(**{prop.identifier: getattr(remembered(), prop.identifier) for prop in rna})
+    settings.region_source = source
+    shown = drawn(panels.draw_settings, settings) + drawn(panels.draw_more_settings, settings)
+    shown += drawn(lambda layout, of: panels.draw_constraints(layout, of, obj), settings)
+    assert sorted(shown) == sorted(prop.identifier for prop in rna)
 
 
 # ---- presets
