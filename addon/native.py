@@ -38,7 +38,9 @@ def contour_problem(surface, vertices, closed=True, barriers=()):
     """Why these vertices are no contour that could be optimized, in words; empty where they are one."""
     mrc = module()
     try:
-        mrc.optimize(surface, vertices, closed=closed, barriers=barriers, options=mrc.Options(iterations=0))
+        mrc.measure(surface, vertices, closed=closed)
+        if len(barriers):
+            mrc.optimize(surface, vertices, closed=closed, barriers=barriers, options=mrc.Options(iterations=0))
     except ValueError as error:
         return str(error)
     return ""

@@ -15,8 +15,10 @@ import sys
 import traceback
 from pathlib import Path
 
+import bpy  # first: as a wheel it brings the path of the next one
+
+# isort: split
 import addon_utils
-import bpy
 import numpy as np
 
 ADDON = "minimum_ratio_contours"  # as an extension it is called bl_ext.<repository>.minimum_ratio_contours
