@@ -5,10 +5,11 @@
 >>> result = api.optimize_contour(bpy.data.objects["Hand"], [12, 13, 40, 39], width=8)
 >>> result.status, result.ratio, result.vertices
 
-The settings are those of `parameters.SETTINGS`. Bad input raises a ValueError that names the elements.
+The settings are those of `parameters.SETTINGS`, for a mesh object also those of `parameters.CONSTRAINTS`, which name
+its vertex groups, attributes and marked edges. Bad input raises a ValueError that names the elements.
 """
 
-from . import mesh_access, native, networks, parameters, seams, segmentation
+from . import constraints, mesh_access, native, networks, parameters, seams, segmentation
 
 _kept = {}  # mesh name -> (MeshArrays, Surface), of the meshes of the last call
 
@@ -20,7 +21,9 @@ def optimize_contour(obj, vertices, closed=True, close=False, **settings):
     setting `anchor` says how strongly the result is held near the loop so closed; 0: not at all.
     """
     mesh_access.synchronize(obj)
-    return optimize_on(surface_of(obj), vertices, closed=closed, close=close, **settings)
+    settings, wanted = parameters.split(settings)
+    asked = constraints.read(obj, **wanted)
+    return optimize_on(surface_of(obj), vertices, closed=closed, close=close, constraints=asked, **settings)
 
 
 def optimize_on(surface, vertices, closed=True, close=False, **settings):
@@ -30,19 +33,24 @@ def optimize_on(surface, vertices, closed=True, close=False, **settings):
     return optimize_all_on(surface, [vertices], closed=closed, **settings)[0]
 
 
-def optimize_all_on(surface, contours, closed=True, progress=None, **settings):
+def optimize_all_on(surface, contours, closed=True, progress=None, constraints=None, **settings):
     """Several contours of a native surface together, which never cross; `closed` is one for all or one for each.
 
     `progress` is called with the share done; an exception that it raises passes through.
     """
     mrc = native.module()
-    options = mrc.Options(**parameters.native_options(**settings))
-    return mrc.optimize_all(surface, contours, closed=closed, options=options, progress=progress)
+    options = parameters.native_options(**settings)
+    if constraints is None:
+        keywords = {"options": mrc.Options(**options)}
+    else:
+        each_closed = [closed] * len(contours) if isinstance(closed, bool) else closed
+        keywords = constraints.keywords(mrc, surface, contours, each_closed, options)
+    return mrc.optimize_all(surface, contours, closed=closed, progress=progress, **keywords)
 
 
-def problem_on(surface, vertices, closed=True):
+def problem_on(surface, vertices, closed=True, barriers=()):
     """Why these vertices are no contour that could be optimized, in words; empty where they are one."""
-    return native.contour_problem(surface, vertices, closed)
+    return native.contour_problem(surface, vertices, closed, barriers)
 
 
 def optimize_seams(obj, selected_only=False, apply=False, **settings):
@@ -70,6 +78,13 @@ def optimize_segmentation(obj, source="FACE_SETS", attribute="", apply=False, **
     if apply and plan.changed:
         segmentation.write(obj, labelling, plan)
     return list(plan.taken_results().values())
+
+
+def curvature(obj, **options):
+    """The native principal curvatures at all vertices; the options are those of mrcontour.Options."""
+    mesh_access.synchronize(obj)
+    mrc = native.module()
+    return mrc.curvature(surface_of(obj), mrc.Options(**options))
 
 
 def surface_of(obj, beside=()):

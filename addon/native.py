@@ -34,10 +34,13 @@ def problem():
     return ""
 
 
-def contour_problem(surface, vertices, closed=True):
+def contour_problem(surface, vertices, closed=True, barriers=()):
     """Why these vertices are no contour that could be optimized, in words; empty where they are one."""
+    mrc = module()
     try:
-        module().measure(surface, vertices, closed=closed)
+        mrc.measure(surface, vertices, closed=closed)
+        if len(barriers):
+            mrc.optimize(surface, vertices, closed=closed, barriers=barriers, options=mrc.Options(iterations=0))
     except ValueError as error:
         return str(error)
     return ""

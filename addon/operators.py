@@ -2,10 +2,10 @@
 """The operators: they alone talk to the user."""
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from . import api, jobs, native, outputs, panels, report, selection
-from .parameters import SETTINGS
+from .parameters import CONSTRAINTS, SETTINGS
 
 
 class NetworkSettings:
@@ -34,6 +34,23 @@ class ContourSettings(NetworkSettings):
     refinement: IntProperty(**SETTINGS["refinement"])
     regular_iterations: IntProperty(**SETTINGS["regular_iterations"])
     ends: EnumProperty(**SETTINGS["ends"])
+
+
+class ContourConstraints:
+    """The properties of the constraints table, for operators on selected contours."""
+
+    required_group: StringProperty(**CONSTRAINTS["required_group"])
+    barrier_marks: EnumProperty(**CONSTRAINTS["barrier_marks"])
+    attractor_group: StringProperty(**CONSTRAINTS["attractor_group"])
+    attractor_marks: EnumProperty(**CONSTRAINTS["attractor_marks"])
+    attractor_strength: FloatProperty(**CONSTRAINTS["attractor_strength"])
+    attractor_radius: FloatProperty(**CONSTRAINTS["attractor_radius"])
+    region_source: EnumProperty(**CONSTRAINTS["region_source"])
+    region_layer: StringProperty(**CONSTRAINTS["region_layer"])
+    region_strength: FloatProperty(**CONSTRAINTS["region_strength"])
+
+    def constraints(self):
+        return {name: getattr(self, name) for name in CONSTRAINTS}
 
 
 class ContourOutput:
@@ -86,6 +103,9 @@ class ContourOutput:
         warnings = [warning for part in parts for warning in part.warnings]
         message = report.summary(outcomes, warnings)
         level = "WARNING" if warnings or any(outcome.problem for outcome in outcomes) else "INFO"
+        if any(part.outside for part in parts):
+            outputs.select_vertices(context, {part.obj: part.outside for part in parts})
+            return self.tell(context, level, message, outcomes)
         if not outputs.changes_anything(parts, wish):
             return self.give_up(context, level, message, outcomes)
         outputs.write(context, parts, wish)
@@ -132,7 +152,9 @@ class SearchInEditMode(InEditMode, jobs.SearchOperator):
         return context.mode == "EDIT_MESH" and api.are_current(self.surfaces(work))
 
 
-class MESH_OT_optimize_contour(ContourSettings, ContourOutput, SearchInEditMode, bpy.types.Operator):
+class MESH_OT_optimize_contour(
+    ContourSettings, ContourConstraints, ContourOutput, SearchInEditMode, bpy.types.Operator
+):
     """Move each selected loop or chain to the part boundary nearby, where the surface is most concave for its length"""
 
     bl_idname = "mesh.optimize_contour"
@@ -147,7 +169,8 @@ class MESH_OT_optimize_contour(ContourSettings, ContourOutput, SearchInEditMode,
 
     def read(self, context):
         wish = self.wish(context)
-        return selection.read_parts(context.objects_in_mode_unique_data, wish.face_mode, self.close), wish
+        objects = context.objects_in_mode_unique_data
+        return selection.read_parts(objects, wish.face_mode, self.close, self.constraints()), wish
 
     def search(self, work):
         parts, settings = work[0], self.settings()
@@ -161,7 +184,10 @@ class MESH_OT_optimize_contour(ContourSettings, ContourOutput, SearchInEditMode,
 
     def draw(self, context):
         panels.draw_settings(self.layout, self)
+        self.layout.separator()
         panels.draw_more_settings(self.layout, self)
+        self.layout.separator()
+        panels.draw_constraints(self.layout, self, context.object)
 
 
 def register():

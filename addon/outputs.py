@@ -98,6 +98,21 @@ def write(context, parts, wish):
         custom_normals.restore(context)
 
 
+def select_vertices(context, vertices_of):
+    """Shows some vertices of each object: in vertex mode, they alone selected."""
+    context.tool_settings.mesh_select_mode = (True, False, False)
+    bpy.ops.mesh.select_all(action="DESELECT")
+    for obj, vertices in vertices_of.items():
+        bm = bmesh.from_edit_mesh(obj.data)
+        bm.select_mode = {"VERT"}
+        bm.verts.ensure_lookup_table()
+        for vertex in vertices:
+            if not bm.verts[vertex].hide:
+                bm.verts[vertex].select_set(True)
+        bm.select_flush_mode()
+        bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)
+
+
 class _Cut:
     """The contours of one mesh, cut into its faces where they are refined, and what is made of them."""
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sidebar panel, the menu entry and the numbers of the last result."""
+"""The sidebar panels and the numbers of the last result."""
 
 import textwrap
 
@@ -7,7 +7,7 @@ import bpy
 from bpy.props import CollectionProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
 from . import native, report
-from .parameters import MAIN, MORE
+from .parameters import CONSTRAINTS, MAIN, MORE
 
 OPERATOR = "mesh.optimize_contour"
 _SHOWN = 8  # contours with their numbers in the panel
@@ -20,6 +20,9 @@ class ContourNumbers(bpy.types.PropertyGroup):
     status: StringProperty()
     initial_ratio: FloatProperty()
     ratio: FloatProperty()
+    salience: StringProperty()
+    length: FloatProperty()
+    reason: StringProperty()
     faces: IntProperty()
     milliseconds: FloatProperty()
 
@@ -39,6 +42,13 @@ def show_result(context, message, outcomes):
     for outcome in outcomes:
         if outcome.result is not None:
             _fill(last.contours.add(), outcome)
+
+
+def remember(context, values):
+    """Lets the operator's next run from the panel or a menu start from these values."""
+    settings = context.window_manager.operator_properties_last(OPERATOR)
+    for name, value in values.items():
+        setattr(settings, name, value)
 
 
 def draw_settings(layout, settings):
@@ -84,8 +94,38 @@ def _draw_properties(layout, settings, names):
             layout.prop(settings, name)
 
 
+def draw_constraints(layout, settings, obj):
+    """What contours keep to; names of layers are picked from those of the active object."""
+    layout.use_property_split = True
+    layout.use_property_decorate = False
+    layout.prop_search(settings, "required_group", obj, "vertex_groups")
+    _draw_marks(layout, settings, "barrier_marks")
+    layout.separator()
+    layout.prop_search(settings, "attractor_group", obj, "vertex_groups")
+    _draw_marks(layout, settings, "attractor_marks")
+    column = layout.column()
+    column.enabled = bool(settings.attractor_group or settings.attractor_marks)
+    column.prop(settings, "attractor_strength")
+    column.prop(settings, "attractor_radius")
+    layout.separator()
+    layout.prop(settings, "region_source")
+    column = layout.column()
+    column.enabled = settings.region_source != "NONE"
+    places = {"ATTRIBUTE": (obj.data, "attributes"), "COLOR": (obj.data, "color_attributes")}
+    column.prop_search(settings, "region_layer", *places.get(settings.region_source, (obj, "vertex_groups")))
+    column.prop(settings, "region_strength")
+
+
+def _draw_marks(layout, settings, name):
+    """Below their label: beside it three names would not fit into a sidebar of the usual width."""
+    column = layout.column(align=True)
+    column.use_property_split = False
+    column.label(text=CONSTRAINTS[name]["name"])
+    column.row(align=True).prop(settings, name, expand=True)
+
+
 class VIEW3D_PT_minimum_ratio_contours(bpy.types.Panel):
-    bl_label = "Minimum Ratio Contours"
+    bl_label = "Contours"
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = "Contours"
@@ -100,9 +140,25 @@ class VIEW3D_PT_minimum_ratio_contours(bpy.types.Panel):
         # The panel's settings are the operator's own: those of the last run, which the next run from the panel takes.
         draw_settings(layout.column(), context.window_manager.operator_properties_last(OPERATOR))
         layout.operator(OPERATOR, icon="MOD_EDGESPLIT")
-        last = context.window_manager.minimum_ratio_contours
-        if last.message:
-            _draw_result(layout.box(), context, last)
+        layout.operator("mesh.show_curvature", icon="COLOR")
+
+    def draw_header_preset(self, context):
+        bpy.types.VIEW3D_PT_minimum_ratio_contours_presets.draw_panel_header(self.layout)
+
+
+class VIEW3D_PT_minimum_ratio_contours_result(bpy.types.Panel):
+    bl_label = "Last Result"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Contours"
+    bl_parent_id = "VIEW3D_PT_minimum_ratio_contours"
+
+    @classmethod
+    def poll(cls, context):
+        return bool(context.window_manager.minimum_ratio_contours.message)
+
+    def draw(self, context):
+        _draw_result(self.layout, context, context.window_manager.minimum_ratio_contours)
 
 
 class VIEW3D_PT_minimum_ratio_contours_more(bpy.types.Panel):
@@ -117,15 +173,41 @@ class VIEW3D_PT_minimum_ratio_contours_more(bpy.types.Panel):
         draw_more_settings(self.layout.column(), context.window_manager.operator_properties_last(OPERATOR))
 
 
-def _draw_result(box, context, last):
-    _draw_text(box, context, last.message, "INFO")
+class VIEW3D_PT_minimum_ratio_contours_constraints(bpy.types.Panel):
+    bl_label = "Constraints"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Contours"
+    bl_parent_id = "VIEW3D_PT_minimum_ratio_contours"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        settings = context.window_manager.operator_properties_last(OPERATOR)
+        draw_constraints(self.layout.column(), settings, context.object)
+
+
+def _draw_result(layout, context, last):
+    _draw_text(layout, context, last.message, "INFO")
     for numbers in last.contours[:_SHOWN]:
-        column = box.column(align=True)
-        column.label(text=f"{numbers.place}: {numbers.status}")
-        column.label(text=f"ratio {numbers.initial_ratio:.4g} to {numbers.ratio:.4g}")
-        column.label(text=f"{numbers.faces} faces, {numbers.milliseconds:.1f} ms")
+        _draw_numbers(layout.box(), context, numbers, with_reason=len(last.contours) > 1)
     if len(last.contours) > _SHOWN:
-        box.label(text=f"and {len(last.contours) - _SHOWN} more")
+        layout.label(text=f"and {len(last.contours) - _SHOWN} more")
+
+
+def _draw_numbers(box, context, numbers, with_reason):
+    """The message gives the reason too, but not of which of several contours."""
+    icon = "CHECKMARK" if numbers.status == "improved" else "DOT"
+    _draw_text(box, context, f"{numbers.place}: {numbers.status}", icon)
+    if with_reason and numbers.reason:
+        _draw_text(box, context, numbers.reason, "BLANK1")
+    units = context.scene.unit_settings
+    length = bpy.utils.units.to_string(units.system, "LENGTH", numbers.length * units.scale_length, precision=3)
+    column = box.column(align=True)
+    if numbers.salience:
+        column.label(text=numbers.salience)
+    column.label(text=f"Ratio {numbers.initial_ratio:.3g} to {numbers.ratio:.3g}")
+    column.label(text=f"Length {length}")
+    column.label(text=f"{numbers.faces} faces, {numbers.milliseconds:.1f} ms")
 
 
 def _draw_text(layout, context, text, icon):
@@ -141,19 +223,19 @@ def _fill(numbers, outcome):
     numbers.status = outcome.result.status
     numbers.initial_ratio = outcome.result.initial_ratio
     numbers.ratio = outcome.result.ratio
+    numbers.salience = report.salience(outcome.result)
+    numbers.length = report.length(outcome.result)
+    numbers.reason = outcome.result.reason
     numbers.faces = outcome.result.statistics["faces"]
     numbers.milliseconds = report.milliseconds(outcome.result)
-
-
-def _draw_menu(self, context):
-    self.layout.separator()
-    self.layout.operator(OPERATOR)
 
 
 _CLASSES = (
     ContourNumbers,
     LastResult,
     VIEW3D_PT_minimum_ratio_contours,
+    VIEW3D_PT_minimum_ratio_contours_result,
+    VIEW3D_PT_minimum_ratio_contours_constraints,
     VIEW3D_PT_minimum_ratio_contours_more,
 )
 
@@ -162,11 +244,9 @@ def register():
     for cls in _CLASSES:
         bpy.utils.register_class(cls)
     bpy.types.WindowManager.minimum_ratio_contours = PointerProperty(type=LastResult)
-    bpy.types.VIEW3D_MT_edit_mesh_edges.append(_draw_menu)
 
 
 def unregister():
-    bpy.types.VIEW3D_MT_edit_mesh_edges.remove(_draw_menu)
     del bpy.types.WindowManager.minimum_ratio_contours
     for cls in reversed(_CLASSES):
         bpy.utils.unregister_class(cls)

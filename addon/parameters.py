@@ -131,6 +131,101 @@ SETTINGS = {
 # Networks run along edges, since what they bound are whole faces, and where their ends may go is settled.
 NETWORK = tuple(name for name in SETTINGS if name not in ("refinement", "regular_iterations", "ends"))
 
+_MARKS = (
+    ("SEAM", "Seam", "Edges marked as UV seams"),
+    ("SHARP", "Sharp", "Edges marked as sharp"),
+    ("CREASE", "Crease", "Edges with a subdivision crease"),
+)
+
+# What contours keep to besides being good; rows as above. Names are those of the mesh's own layers.
+CONSTRAINTS = {
+    "required_group": {
+        "name": "Required",
+        "description": "Vertex group with the vertices that the contour must pass: those with a weight above 0",
+        "default": "",
+    },
+    "barrier_marks": {
+        "name": "Barrier Edges",
+        "description": "Marked edges that no contour crosses. Marks along the given contour do not count: they move",
+        "items": _MARKS,
+        "default": set(),
+        "options": {"ENUM_FLAG"},
+    },
+    "attractor_group": {
+        "name": "Attractors",
+        "description": "Vertex group that draws the contour onto its vertices, by their weights",
+        "default": "",
+    },
+    "attractor_marks": {
+        "name": "Attracting Edges",
+        "description": "Marked edges that draw the contour onto themselves. Marks along the given contour do not count",
+        "items": _MARKS,
+        "default": set(),
+        "options": {"ENUM_FLAG"},
+    },
+    "attractor_strength": {
+        "name": "Strength",
+        "description": "How strongly attractors of weight 1 pull, in average curvatures near the contour: a boundary "
+        "is about as strong as 2; below 0: push off",
+        "default": 5.0,
+        "soft_min": -20.0,
+        "soft_max": 20.0,
+    },
+    "attractor_radius": {
+        "name": "Radius",
+        "description": "How far along the surface an attractor is felt, in average edge lengths of the given contour",
+        "default": 3.0,
+        "min": 0.1,
+        "soft_max": 20.0,
+    },
+    "region_source": {
+        "name": "Region",
+        "description": "A painted region whose border draws a closed contour",
+        "items": (
+            ("NONE", "None", "No region"),
+            ("GROUP", "Vertex Group", "The weights of a vertex group"),
+            ("ATTRIBUTE", "Face Attribute", "The values of a face attribute of floats, integers or booleans"),
+            ("COLOR", "Color", "The brightness of a colour attribute"),
+        ),
+        "default": "NONE",
+    },
+    "region_layer": {
+        "name": "Layer",
+        "description": "The name of the vertex group, face attribute or colour attribute",
+        "default": "",
+    },
+    "region_strength": {
+        "name": "Strength",
+        "description": "How strongly the contour takes painted faces to the side that has more of them, in face mode "
+        "to that of the selected faces; below 0: leaves them to the other side",
+        "default": 10.0,
+        "soft_min": -100.0,
+        "soft_max": 100.0,
+    },
+}
+
+# Named settings that suit a kind of work; what a preset does not name takes the user's default.
+PRESETS = {
+    "DEFAULT": ("Default", "What lands closest to where people draw part boundaries", {}),
+    "NEAR": ("Tidy Up", "Only straighten the contour within a few rings of where it is", {"width": 3, "anchor": 2.0}),
+    "FAR": (
+        "Look Far",
+        "Search far from a very rough contour, and search again",
+        {"width": 24, "reach": 0.5, "iterations": 4, "anchor": 0.1},
+    ),
+    "HARD": ("Hard Surface", "Keep to the crisp concave edges of a mechanical part", {"crease": 3.0, "anchor": 0.2}),
+    "SMOOTH": (
+        "Across Faces",
+        "A smooth contour that runs across faces, which are then cut",
+        {"refinement": 2, "regular_iterations": 2},
+    ),
+    "ALWAYS": (
+        "Always Move",
+        "Also move where there is hardly anything concave",
+        {"min_salience": 0.0, "length_bias": 4.0},
+    ),
+}
+
 # Besides the width; the others are for those who look for them.
 MAIN = (
     "refinement",
@@ -149,6 +244,19 @@ MORE = (
     "ends",
     "regular_iterations",
 )
+
+
+def split(settings):
+    """Settings of both tables as two: those of SETTINGS and whatever else there is, and those of CONSTRAINTS."""
+    constraints = {name: value for name, value in settings.items() if name in CONSTRAINTS}
+    return {name: value for name, value in settings.items() if name not in CONSTRAINTS}, constraints
+
+
+def preset_values(identifier, defaults=()):
+    """All settings of the table as a preset has them, with the user's own defaults where given."""
+    values = {name: row["default"] for name, row in SETTINGS.items()}
+    own = {name: value for name, value in dict(defaults).items() if name in SETTINGS}
+    return values | own | PRESETS[identifier][2]
 
 
 def native_options(**settings):

@@ -12,6 +12,14 @@ NOTHING_SELECTED = (
 )
 CANCELLED = "Cancelled: everything is as it was"
 CHANGED_MEANWHILE = "The mesh was changed during the search, so that nothing was written; run it again"
+NO_FACES = "there are no faces, which alone are curved"
+_SALIENCES = (  # from this salience on, in words
+    (2.0, "clear boundary"),
+    (1.0, "good boundary"),
+    (0.5, "faint boundary"),
+    (0.25, "hardly concave"),
+    (-np.inf, "nothing concave here"),
+)
 _NAMED = 3  # of several alike, only so many are named
 
 
@@ -108,6 +116,30 @@ def branching(vertices):
     return f"a selection that branches at {noun} {shortened(vertices)}; select single loops, or faces in face mode"
 
 
+def no_layer(kind, name):
+    if not name:
+        return f"no {kind} is named: choose one under Constraints, or none at all"
+    return f"there is no {kind} named {name}: choose another one under Constraints, or clear the field"
+
+
+def open_region():
+    return "an open chain encloses no region: set Region to None under Constraints, or select a closed loop"
+
+
+def curvature_shown(count, problems, values, colors):
+    sentences = []
+    if count:
+        places = "1 mesh" if count == 1 else f"{count} meshes"
+        sentences = [f"Curvature of {places} is in the attributes '{values}', in 1 / length, and '{colors}'"]
+    if problems:
+        sentences.append("Not shown: " + shortened(problems, "; "))
+    return ". ".join(sentences)
+
+
+def name_taken(name):
+    return f"another kind of attribute is named '{name}': rename or remove it"
+
+
 def loose(edges, closed=True):
     noun = "a loop" if closed else "an open chain"
     names = shortened([f"{a}-{b}" for a, b in edges])
@@ -123,6 +155,21 @@ def shortened(items, separator=", "):
 
 def milliseconds(result):
     return 1000.0 * sum(result.statistics["seconds"].values())
+
+
+def salience(result):
+    """How far to trust a result, in words and as a number; empty where nothing was searched."""
+    if not result.statistics["passes"]:
+        return ""
+    words = next(words for least, words in _SALIENCES if result.salience >= least)
+    return f"{words.capitalize()} ({result.salience:.2f})"
+
+
+def length(result):
+    """Of the contour found, in object space."""
+    points = np.asarray(result.positions)
+    ends = np.roll(points, -1, axis=0) if result.closed else points[1:]
+    return float(np.linalg.norm(ends - points[: len(ends)], axis=1).sum())
 
 
 def _statuses(results):

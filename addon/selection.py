@@ -7,6 +7,8 @@ import bpy
 import numpy as np
 
 from . import api, contours, jobs, mesh_access, native, report
+from . import constraints as layers
+from .constraint_arrays import OutsideBand
 
 
 @dataclass
@@ -19,6 +21,9 @@ class Part:
     mirrored: bool = False  # whether there are contours that were not selected, but their mirror images
     asymmetric: bool = False  # whether mirror images were asked for and are not there
     surface: object = None  # the native surface, where there is something to optimize
+    constraints: object = None  # what the mesh's layers ask of the contours
+    has_left: bool = False  # whether a side of the contours was selected, in face mode, which is then their left
+    outside: tuple = ()  # required vertices where nothing is searched
 
     def sound(self):
         """The contours that can be handed to the search."""
@@ -39,16 +44,17 @@ class Part:
             outcome.problem = str(error)
 
 
-def read_parts(objects, face_mode, close=False):
+def read_parts(objects, face_mode, close=False, constraints=None):
     """A Part for each object, with an outcome for each connected piece of its selection; nothing is optimized yet.
 
-    With `close`, chains of edges are to be closed first.
+    With `close`, chains of edges are to be closed first. `constraints` are settings that name layers.
     """
     parts = [read_part(obj, face_mode, close) for obj in objects]
     for part in parts:
         if part.sound():
             try:
                 part.surface = api.surface_of(part.obj, beside=objects)
+                part.constraints = layers.read(part.obj, **(constraints or {}))
             except ValueError as error:
                 part.fail(error)
     return parts
@@ -60,8 +66,10 @@ def optimize_parts(parts, settings, progress=None):
     for i, part in enumerate(searched):
         _close(part.surface, part.sound())
         try:
-            _fill_in(part.surface, part.sound(), settings, jobs.share_of(progress, i, len(searched)))
+            _prepare_for_region(part)
+            _fill_in(part, part.sound(), settings, jobs.share_of(progress, i, len(searched)))
         except ValueError as error:
+            part.outside = error.vertices if isinstance(error, OutsideBand) else ()
             part.fail(error)
 
 
@@ -76,7 +84,8 @@ def read_part(obj, face_mode, close=False):
     for outcome in outcomes:
         outcome.closing = close and not face_mode and not outcome.closed
         outcome.problem = outcome.problem or _problem(outcome, selection.loose)
-    return Part(obj, outcomes, [], len(edges) > len(selection.edges), asymmetric=mirror and images is None)
+    mirrored = len(edges) > len(selection.edges)
+    return Part(obj, outcomes, [], mirrored, asymmetric=mirror and images is None, has_left=face_mode)
 
 
 def note_warnings(part):
@@ -135,20 +144,37 @@ def _close(surface, outcomes):
             outcome.problem = report.meets_another(outcome.vertices)
 
 
-def _fill_in(surface, outcomes, settings, progress):
+def _prepare_for_region(part):
+    """Turns the contours so that what is painted lies to their left, where the selected part does not lie there."""
+    if part.constraints is None or part.constraints.density is None:
+        return
+    for outcome in part.sound():
+        if not outcome.closed:
+            outcome.problem = report.open_region()
+        elif not part.has_left and part.constraints.paints_the_right(native.module(), part.surface, outcome.vertices):
+            outcome.vertices = outcome.vertices[::-1].copy()
+
+
+def _fill_in(part, outcomes, settings, progress):
     """Optimizes all together. Where one of them cannot be a contour, that one is left out and the others go on."""
     if not outcomes:
         return
+    surface, asked = part.surface, part.constraints
     vertices, closed = [outcome.vertices for outcome in outcomes], [outcome.closed for outcome in outcomes]
     try:
-        results = api.optimize_all_on(surface, vertices, closed=closed, progress=progress, **settings)
+        results = api.optimize_all_on(
+            surface, vertices, closed=closed, progress=progress, constraints=asked, **settings
+        )
+    except OutsideBand:
+        raise
     except ValueError:
+        barriers = () if asked is None else asked.barriers_beside(vertices, closed)
         for outcome in outcomes:
-            outcome.problem = api.problem_on(surface, outcome.vertices, closed=outcome.closed)
+            outcome.problem = api.problem_on(surface, outcome.vertices, outcome.closed, barriers)
         sound = [outcome for outcome in outcomes if not outcome.problem]
         if len(sound) == len(outcomes):
             raise
-        _fill_in(surface, sound, settings, progress)
+        _fill_in(part, sound, settings, progress)
         return
     for outcome, result in zip(outcomes, results):
         outcome.result = result

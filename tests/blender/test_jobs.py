@@ -89,6 +89,9 @@ def test_several_searches_share_one_progress():
 class Contour(operators.ContourOutput, operators.SearchInEditMode):
     output, keep_old, fill_holes, merge, close = "SEAM", False, False, 0.0, False
 
+    def constraints(self):
+        return {}
+
 
 class Seams(network_operators.NetworkOperator):
     selected_only = False

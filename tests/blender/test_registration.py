@@ -1,40 +1,83 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What enabling the add-on brings, and that disabling it takes all of it away."""
 
+import inspect
+
 import addon_utils
 import bpy
 import minimum_ratio_contours
+import pytest
 from minimum_ratio_contours import native
 
 MODULE = "minimum_ratio_contours"
 
 
-OPERATORS = ("MESH_OT_optimize_contour", "MESH_OT_optimize_seams", "MESH_OT_optimize_segmentation")
-MENUS = ("VIEW3D_MT_edit_mesh_edges", "VIEW3D_MT_uv_map", "VIEW3D_MT_edit_mesh_faces")
+MENUS = (
+    "VIEW3D_MT_edit_mesh",
+    "VIEW3D_MT_edit_mesh_context_menu",
+    "VIEW3D_MT_edit_mesh_edges",
+    "VIEW3D_MT_edit_mesh_faces",
+    "VIEW3D_MT_uv_map",
+)
 
 
 def entries(menu):
-    return [entry for entry in getattr(bpy.types, menu)._dyn_ui_initialize() if entry.__module__.startswith(MODULE)]
+    """The add-on's functions that draw into one of Blender's menus."""
+    functions = getattr(bpy.types, menu)._dyn_ui_initialize()
+    return [function for function in functions if function.__module__.startswith(MODULE)]
+
+
+def classes():
+    """The add-on's registered classes, by name."""
+    found = [getattr(bpy.types, name) for name in dir(bpy.types)]
+    return {cls.__name__ for cls in found if getattr(cls, "__module__", "").startswith(MODULE)}
 
 
 def traces():
-    """Whether the operators, the panel, a menu entry for each and the window manager's property are there."""
-    return (
-        *(hasattr(bpy.types, name) for name in OPERATORS),
-        hasattr(bpy.types, "VIEW3D_PT_minimum_ratio_contours"),
-        *(len(entries(menu)) == 1 for menu in MENUS),
-        hasattr(bpy.types.WindowManager, "minimum_ratio_contours"),
-    )
+    """Whether classes, menu entries and the window manager's property are there."""
+    return [bool(classes()), *(bool(entries(menu)) for menu in MENUS)] + [
+        hasattr(bpy.types.WindowManager, "minimum_ratio_contours")
+    ]
 
 
 def test_disabling_leaves_nothing_and_enabling_brings_it_back():
-    assert traces() == (True,) * 8
+    before = classes(), [len(entries(menu)) for menu in MENUS]
+    assert all(traces())
     addon_utils.disable(MODULE)
     try:
-        assert traces() == (False,) * 8
+        assert not any(traces())
+        assert not classes()
     finally:
         addon_utils.enable(MODULE)
-    assert traces() == (True,) * 8
+    assert all(traces())
+    assert (classes(), [len(entries(menu)) for menu in MENUS]) == before
+
+
+def test_operators_say_what_they_do_and_their_labels_fit_a_sidebar():
+    """Blender ends tooltips with a full stop itself; a sidebar of the usual width shows some 20 letters of a name."""
+    for name in classes():
+        cls = getattr(bpy.types, name)
+        if not issubclass(cls, (bpy.types.Operator, bpy.types.Panel, bpy.types.Menu)):
+            continue
+        assert 0 < len(cls.bl_label) <= 26, name
+        if issubclass(cls, bpy.types.Operator):
+            assert inspect.getdoc(cls), name
+            assert not inspect.getdoc(cls).endswith("."), name
+            for key, prop in cls.__annotations__.items():
+                assert len(prop.keywords["name"]) <= 20, key
+
+
+def settings():
+    """The operator's properties, asked for anew: registering again replaces them."""
+    return bpy.ops.mesh.optimize_contour.get_rna_type().properties[1:]
+
+
+@pytest.mark.parametrize("name", [prop.identifier for prop in settings()])
+def test_every_setting_has_a_short_name_and_a_tooltip(name):
+    (prop,) = (prop for prop in settings() if prop.identifier == name)
+    assert 0 < len(prop.name) <= 18
+    assert len(prop.description) > 10
+    assert not prop.description.endswith(".")
 
 
 def test_the_versions_agree():

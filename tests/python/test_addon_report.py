@@ -101,3 +101,25 @@ def test_a_contour_that_cannot_be_output_counts_as_left():
     refused = done()
     refused.problem = "it separates nothing"
     assert report.summary([refused]) == "Left as it is: it separates nothing"
+
+
+@pytest.mark.parametrize("value", [-1.0, 0.0, 0.3, 0.7, 1.5, 2.0, 9.0])
+def test_salience_in_words_from_nothing_to_a_clear_boundary(value):
+    words = ["Nothing concave here", "Hardly concave", "Faint boundary", "Good boundary", "Clear boundary"]
+    place = np.searchsorted([0.25, 0.5, 1.0, 2.0], value, side="right")
+    result = SimpleNamespace(salience=value, statistics={"passes": 3})
+    assert report.salience(result) == f"{words[place]} ({value:.2f})"
+
+
+def test_where_nothing_was_searched_there_is_no_salience():
+    assert report.salience(SimpleNamespace(salience=0.0, statistics={"passes": 0})) == ""
+
+
+@pytest.mark.parametrize(("closed", "expected"), [(True, 14.0), (False, 11.0)])
+def test_length(closed, expected):
+    square = np.array([(0, 0, 0), (4, 0, 0), (4, 3, 0), (0, 3, 0)], dtype=float)
+    assert report.length(SimpleNamespace(positions=square, closed=closed)) == expected
+
+
+def test_alike_problems_are_said_once():
+    assert report.summary([left("it branches"), left("it branches")]) == "Left as it is: it branches"

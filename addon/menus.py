@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The entries in Blender's own menus; F3 finds them by these words."""
+
+import bpy
+
+OPERATOR = "mesh.optimize_contour"
+
+
+class VIEW3D_MT_minimum_ratio_contours(bpy.types.Menu):
+    """What becomes of the contours, in one step"""
+
+    bl_idname = "VIEW3D_MT_minimum_ratio_contours"
+    bl_label = "Optimize Contour and"
+
+    def draw(self, context):
+        for output, text in (
+            ("SEAM", "Mark Seam"),
+            ("SHARP", "Mark Sharp"),
+            ("CUT", "Cut into Faces"),
+            ("RIP", "Rip Open"),
+            ("SEPARATE", "Separate Part"),
+        ):
+            self.layout.operator(OPERATOR, text=text).output = output
+
+
+def _draw_edge(self, context):
+    self.layout.separator()
+    self.layout.operator(OPERATOR)
+    self.layout.menu(VIEW3D_MT_minimum_ratio_contours.bl_idname)
+
+
+def _draw_context(self, context):
+    self.layout.separator()
+    self.layout.operator(OPERATOR)
+
+
+def _draw_face(self, context):
+    self.layout.separator()
+    self.layout.operator(OPERATOR, text="Optimize Contour of Faces")
+
+
+def _draw_uv(self, context):
+    self.layout.separator()
+    self.layout.operator(OPERATOR, text="Optimize Contour to Seam").output = "SEAM"
+
+
+def _draw_mesh(self, context):
+    self.layout.separator()
+    self.layout.operator("mesh.show_curvature")
+
+
+_ENTRIES = (
+    ("VIEW3D_MT_edit_mesh", _draw_mesh),
+    ("VIEW3D_MT_edit_mesh_context_menu", _draw_context),
+    ("VIEW3D_MT_edit_mesh_edges", _draw_edge),
+    ("VIEW3D_MT_edit_mesh_faces", _draw_face),
+    ("VIEW3D_MT_uv_map", _draw_uv),
+)
+
+
+def register():
+    bpy.utils.register_class(VIEW3D_MT_minimum_ratio_contours)
+    for menu, draw in _ENTRIES:
+        getattr(bpy.types, menu).append(draw)
+
+
+def unregister():
+    for menu, draw in _ENTRIES:
+        getattr(bpy.types, menu).remove(draw)
+    bpy.utils.unregister_class(VIEW3D_MT_minimum_ratio_contours)

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The example script, in this Blender: reads a file, improves its seams, prints JSON, writes a file, or fails."""
+
+import importlib
+import json
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+
+import bpy
+import pytest
+from made_meshes import GROOVE, edge_set, edit, grooved_cylinder, pairs, ring, rough_loop, set_flag
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "blend_samples"))
+improve_seams = importlib.import_module("improve_seams")
+
+START = rough_loop(GROOVE - 3)
+
+
+@pytest.fixture
+def files(tmp_path):
+    """A .blend file with a rough seam, a mesh without seams and a second user of the first mesh; and one to write."""
+    obj = grooved_cylinder()
+    edit(obj)
+    set_flag(obj, pairs(START), "seam")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.context.scene.collection.objects.link(bpy.data.objects.new("Twin", obj.data))
+    grooved_cylinder("Plain")
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "in.blend"), copy=True)
+    return tmp_path / "in.blend", tmp_path / "out.blend"
+
+
+def run(monkeypatch, capfd, *arguments):
+    """The script's exit code and what it prints."""
+    monkeypatch.setattr(sys, "argv", ["blender", "--", *map(str, arguments)])
+    code = improve_seams.main()
+    (line,) = (line for line in capfd.readouterr().out.splitlines() if line.startswith("{"))
+    return code, json.loads(line)
+
+
+def seams(path):
+    bpy.ops.wm.open_mainfile(filepath=str(path), load_ui=False)
+    mesh = bpy.data.objects["Cylinder"].data
+    return {frozenset(edge.vertices) for edge in mesh.edges if edge.use_seam}
+
+
+def test_seams_move_and_the_other_file_has_them(files, monkeypatch, capfd):
+    given, written = files
+    code, summary = run(monkeypatch, capfd, given, written, "--width", 10)
+    assert code == 0
+    assert summary["output"] == str(written)
+    found = {entry["object"]: entry["seams"] for entry in summary["objects"]}
+    assert found.keys() == {"Cylinder", "Plain"}
+    (seam,) = found["Cylinder"]
+    assert seam["status"] == "improved"
+    assert seam["ratio"] < seam["initial_ratio"]
+    assert found["Plain"] == []
+    assert seams(written) == edge_set(ring(GROOVE))
+    assert seams(given) == edge_set(START)
+
+
+def test_only_the_named_objects(files, monkeypatch, capfd):
+    code, summary = run(monkeypatch, capfd, *files, "--object", "Plain")
+    assert (code, [entry["object"] for entry in summary["objects"]]) == (0, ["Plain"])
+    assert seams(files[1]) == edge_set(START)
+
+
+def test_failures_write_nothing_and_say_why(files, monkeypatch, capfd):
+    given, written = files
+    for arguments, words in (
+        ((given, written, "--object", "Nope"), "no object named Nope"),
+        ((given.with_name("missing.blend"), written), "missing.blend"),
+    ):
+        code, summary = run(monkeypatch, capfd, *arguments)
+        assert (code, written.exists()) == (1, False)
+        assert words in summary["error"]
+
+
+def test_a_mesh_that_fails_keeps_all_from_being_written(files, monkeypatch, capfd):
+    def refuse(obj, **_):
+        raise ValueError(f"{obj.name} is refused")
+
+    monkeypatch.setattr("minimum_ratio_contours.api.optimize_seams", refuse)
+    code, summary = run(monkeypatch, capfd, *files)
+    assert (code, files[1].exists(), summary["output"]) == (1, False, None)
+    assert "Cylinder: Cylinder is refused" in summary["error"]
+
+
+def test_what_nobody_expected_is_a_failure_too(files, monkeypatch, capfd):
+    monkeypatch.setattr("minimum_ratio_contours.api.optimize_seams", lambda obj, **_: 1 / 0)
+    code, summary = run(monkeypatch, capfd, *files)
+    assert (code, files[1].exists()) == (1, False)
+    assert summary["error"].startswith("ZeroDivisionError")
+
+
+def test_unknown_settings_are_refused(files, monkeypatch):
+    monkeypatch.setattr(sys, "argv", ["blender", "--", *map(str, files), "--widht", "3"])
+    with pytest.raises(SystemExit) as caught:
+        improve_seams.main()
+    assert caught.value.code != 0
+
+
+@pytest.mark.parametrize("name", ["minimum_ratio_contours", "bl_ext.user_default.minimum_ratio_contours"])
+@pytest.mark.parametrize("enabled", [False, True])
+def test_either_install_is_found(name, enabled, monkeypatch):
+    asked = []
+    others = [SimpleNamespace(__name__=other) for other in ("io_scene_fbx", name, "not_minimum_ratio_contours")]
+    monkeypatch.setattr(improve_seams.addon_utils, "modules", lambda: others)
+    monkeypatch.setattr(improve_seams.addon_utils, "check", lambda _: (enabled, enabled))
+    monkeypatch.setattr(improve_seams.addon_utils, "enable", lambda module: asked.append(module) or True)
+    assert improve_seams.addon_module() == name
+    assert asked == ([] if enabled else [name])
+
+
+def test_without_the_addon_it_says_so(monkeypatch, capfd):
+    monkeypatch.setattr(improve_seams.addon_utils, "modules", lambda: [])
+    code, summary = run(monkeypatch, capfd, "in.blend", "out.blend")
+    assert (code, summary["error"]) == (1, "the add-on minimum_ratio_contours is not installed")

@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Presets, preferences, menus and the last result: what the user starts from and reads afterwards."""
+
+from pathlib import Path
+from types import SimpleNamespace
+from unittest.mock import MagicMock
+
+import bpy
+import pytest
+from made_meshes import GROOVE, edit, flagged, grooved_cylinder, pairs, ring, rough_loop, select
+from minimum_ratio_contours import menus, panels, parameters, preferences, presets
+
+START = rough_loop(GROOVE - 3)
+
+
+class Layout:
+    """Stands in for a layout and notes the operators that are drawn, as (idname, text, properties)."""
+
+    def __init__(self):
+        self.drawn, self.menus = [], []
+
+    def separator(self):
+        pass
+
+    def menu(self, name):
+        self.menus.append(name)
+
+    def operator(self, idname, text=""):
+        properties = type("Properties", (), {})()
+        self.drawn.append((idname, text, properties))
+        return properties
+
+
+class Drawn:
+    def __init__(self):
+        self.layout = Layout()
+
+
+@pytest.fixture
+def own():
+    """The user's preferences, which are put back afterwards."""
+    found = bpy.context.preferences.addons["minimum_ratio_contours"].preferences
+    yield found
+    bpy.ops.mesh.contour_defaults()
+
+
+def remembered():
+    return bpy.context.window_manager.operator_properties_last(panels.OPERATOR)
+
+
+def test_every_menu_entry_runs():
+    seen = set()
+    drawers = [draw for _, draw in menus._ENTRIES] + [menus.VIEW3D_MT_minimum_ratio_contours.draw]
+    for draw in drawers:
+        menu = Drawn()
+        draw(menu, bpy.context)
+        assert menu.layout.drawn
+        for idname, _, properties in menu.layout.drawn:
+            obj = grooved_cylinder()
+            edit(obj)
+            select(obj, pairs(START))
+            category, name = idname.split(".")
+            assert getattr(getattr(bpy.ops, category), name)(**vars(properties)) == {"FINISHED"}
+            seen.add((idname, *vars(properties).values()))
+            bpy.ops.object.mode_set(mode="OBJECT")
+    assert {output for _, *outputs in seen for output in outputs} == {"SEAM", "SHARP", "CUT", "RIP", "SEPARATE"}
+    assert ("mesh.show_curvature",) in seen
+
+
+def test_the_panel_says_what_was_found(last):
+    obj = grooved_cylinder()
+    edit(obj)
+    select(obj, pairs(START))
+    bpy.ops.mesh.optimize_contour()
+    (numbers,) = last.contours
+    circumference = sum((obj.data.vertices[a].co - obj.data.vertices[b].co).length for a, b in pairs(ring(GROOVE)))
+    assert numbers.length == pytest.approx(circumference, rel=1e-5)
+    assert numbers.salience.startswith("Clear boundary (")
+    assert numbers.reason == ""
+    bpy.ops.mesh.optimize_contour()
+    (numbers,) = last.contours
+    assert numbers.status == "unchanged"
+    assert numbers.reason == "the given contour is already the best in its band"
+    assert numbers.reason in last.message
+
+
+def test_nothing_concave_is_said_in_words(last):
+    obj = grooved_cylinder(depth=0)
+    edit(obj)
+    select(obj, pairs(ring(8)))
+    bpy.ops.mesh.optimize_contour()
+    assert last.contours[0].salience.startswith("Nothing concave here (")
+
+
+def drawn(draw, settings):
+    """The names of the properties that a function draws, in a layout that only notes them."""
+    layout = MagicMock()
+    draw(layout, settings)
+    calls = [args for name, args, _ in layout.mock_calls if name.split(".")[-1] in ("prop", "prop_search")]
+    return [args[1] for args in calls if args[0] is settings]
+
+
+@pytest.mark.parametrize("source", ["NONE", "GROUP", "ATTRIBUTE", "COLOR"])
+def test_the_panels_show_every_setting_once(source):
+    """The redo panel draws an operator, the sidebar its remembered properties: a plain object has what both have."""
+    obj = grooved_cylinder()
+    rna = bpy.ops.mesh.optimize_contour.get_rna_type().properties[1:]
+    settings = SimpleNamespace(**{prop.identifier: getattr(remembered(), prop.identifier) for prop in rna})
+    settings.region_source = source
+    shown = drawn(panels.draw_settings, settings) + drawn(panels.draw_more_settings, settings)
+    shown += drawn(lambda layout, of: panels.draw_constraints(layout, of, obj), settings)
+    assert sorted(shown) == sorted(prop.identifier for prop in rna)
+
+
+# ---- presets
+
+
+@pytest.mark.parametrize("name", parameters.PRESETS)
+def test_a_preset_is_what_the_next_run_from_the_panel_takes(name):
+    settings = remembered()
+    settings.width, settings.crease, settings.output = 33, 7.0, "SHARP"
+    assert bpy.ops.mesh.contour_preset(preset=name) == {"FINISHED"}
+    for key, value in parameters.preset_values(name).items():
+        assert getattr(settings, key) == (pytest.approx(value) if isinstance(value, float) else value)
+    assert settings.output == "SHARP"
+    assert presets.MESH_OT_contour_preset.description(bpy.context, type("P", (), {"preset": name}))
+
+
+def test_own_presets_are_kept_and_found_again(tmp_path, monkeypatch):
+    monkeypatch.setattr(bpy.utils, "user_resource", lambda *_, path="", create=False: _made(tmp_path / path, create))
+    settings = remembered()
+    settings.width, settings.length_bias, settings.flow = 21, 0.75, "GATES"
+    assert bpy.ops.mesh.contour_preset_add(name="My Own") == {"FINISHED"}
+    (file,) = tmp_path.rglob("*.py")
+    assert file.parent.name == presets.VIEW3D_PT_minimum_ratio_contours_presets.preset_subdir
+    bpy.ops.mesh.contour_preset(preset="DEFAULT")
+    assert settings.width != 21
+    exec(compile(file.read_text(), str(file), "exec"), {})
+    assert (settings.width, settings.length_bias, settings.flow) == (21, 0.75, "GATES")
+
+
+def _made(path, create):
+    if create:
+        Path(path).mkdir(parents=True, exist_ok=True)
+    return str(path)
+
+
+# ---- preferences
+
+
+def test_preferences_are_the_defaults_of_all_settings(own):
+    assert preferences.values(bpy.context).keys() >= parameters.SETTINGS.keys() | {"output", "merge"}
+    for name, row in parameters.SETTINGS.items():
+        value = row["default"]
+        assert getattr(own, name) == (pytest.approx(value) if isinstance(value, float) else value)
+
+
+def test_a_preference_takes_effect_at_once_and_scripts_do_not_feel_it(own):
+    own.output, own.width = "SEAM", 13
+    assert (remembered().output, remembered().width) == ("SEAM", 13)
+    remembered().width = 5
+    bpy.ops.mesh.contour_preset(preset="DEFAULT")
+    assert remembered().width == 13
+    obj = grooved_cylinder()
+    edit(obj)
+    select(obj, pairs(START))
+    bpy.ops.mesh.optimize_contour()
+    assert not flagged(obj, "seam")
+    bpy.ops.mesh.contour_defaults()
+    assert (remembered().output, remembered().width) == ("SELECT", parameters.SETTINGS["width"]["default"])
+
+
+def test_a_new_session_starts_from_the_preferences(own):
+    own.width = 13
+    remembered().width = 5
+    preferences.unregister()
+    preferences.register()
+    assert remembered().width == 13
