@@ -14,9 +14,9 @@ bl_info = {
 
 def _modules():
     # Imported here, not above: the modules that do without bpy can then be imported outside Blender.
-    from . import api, operators, panels
+    from . import adjust, api, operators, panels
 
-    return api, operators, panels
+    return api, operators, adjust, panels
 
 
 def register():

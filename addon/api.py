@@ -41,10 +41,15 @@ def problem_on(surface, vertices, closed=True):
 
 
 def surface_of(obj, beside=()):
-    """The native surface of a synchronized mesh object.
+    """The native surface of a synchronized mesh object; see arrays_and_surface_of."""
+    return arrays_and_surface_of(obj, beside)[1]
 
-    It is kept while the mesh is unchanged, along with those of the objects `beside` it. Whether it is unchanged is seen
-    by comparing all arrays, which takes ten milliseconds for a million triangles and cannot be fooled.
+
+def arrays_and_surface_of(obj, beside=()):
+    """The arrays of a synchronized mesh object and the native surface made from them.
+
+    They are kept while the mesh is unchanged, along with those of the objects `beside` it. Whether it is unchanged is
+    seen by comparing all arrays, which takes ten milliseconds for a million triangles and cannot be fooled.
     """
     mrc = native.module()
     arrays = mesh_access.read_arrays(obj)
@@ -54,7 +59,7 @@ def surface_of(obj, beside=()):
     if known is None or not known[0].equal(arrays):
         _kept.pop(name, None)
         _kept[name] = arrays, mrc.Surface(**vars(arrays))
-    return _kept[name][1]
+    return _kept[name]
 
 
 def forget():

@@ -66,16 +66,34 @@ class ContourOutput:
         max=0.5,
     )
 
-    def wish(self, face_mode):
+    def wish(self, context):
+        face_mode = tuple(context.tool_settings.mesh_select_mode) == (False, False, True)
         return outputs.Wish(self.output, self.keep_old, self.fill_holes, self.merge, face_mode)
 
+    def finish(self, context, parts, wish):
+        """Makes the output of what was found and says what became of it; the operator's last step."""
+        outputs.refuse(parts, wish)
+        outcomes = [outcome for part in parts for outcome in part.outcomes]
+        if not outcomes:
+            return self.give_up(context, "WARNING", report.NOTHING_SELECTED)
+        warnings = [warning for part in parts for warning in part.warnings]
+        message = report.summary(outcomes, warnings)
+        level = "WARNING" if warnings or any(outcome.problem for outcome in outcomes) else "INFO"
+        if not outputs.changes_anything(parts, wish):
+            return self.give_up(context, level, message, outcomes)
+        outputs.write(context, parts, wish)
+        panels.show_result(context, message, outcomes)
+        self.report({level}, message)
+        return {"FINISHED"}
 
-class MESH_OT_optimize_contour(ContourSettings, ContourOutput, bpy.types.Operator):
-    """Move each selected loop or chain to the part boundary nearby, where the surface is most concave for its length"""
+    def give_up(self, context, level, message, outcomes=()):
+        panels.show_result(context, message, outcomes)
+        self.report({level}, message)
+        return {"CANCELLED"}
 
-    bl_idname = "mesh.optimize_contour"
-    bl_label = "Optimize Contour"
-    bl_options = {"REGISTER", "UNDO"}
+
+class InEditMode:
+    """Where the operators can be called, with the reason where they cannot."""
 
     @classmethod
     def poll(cls, context):
@@ -88,35 +106,26 @@ class MESH_OT_optimize_contour(ContourSettings, ContourOutput, bpy.types.Operato
             cls.poll_message_set("Contours are optimized in Edit Mode of a mesh")
         return False
 
+
+class MESH_OT_optimize_contour(ContourSettings, ContourOutput, InEditMode, bpy.types.Operator):
+    """Move each selected loop or chain to the part boundary nearby, where the surface is most concave for its length"""
+
+    bl_idname = "mesh.optimize_contour"
+    bl_label = "Optimize Contour"
+    bl_options = {"REGISTER", "UNDO"}
+
     def execute(self, context):
         try:
             native.module()
         except native.Unavailable as error:
-            return self._cancel(context, "ERROR", str(error))
-        wish = self.wish(tuple(context.tool_settings.mesh_select_mode) == (False, False, True))
+            return self.give_up(context, "ERROR", str(error))
+        wish = self.wish(context)
         parts = selection.optimize_selection(context.objects_in_mode_unique_data, wish.face_mode, self.settings())
-        outputs.refuse(parts, wish)
-        outcomes = [outcome for part in parts for outcome in part.outcomes]
-        if not outcomes:
-            return self._cancel(context, "WARNING", report.NOTHING_SELECTED)
-        warnings = [warning for part in parts for warning in part.warnings]
-        message = report.summary(outcomes, warnings)
-        level = "WARNING" if warnings or any(outcome.problem for outcome in outcomes) else "INFO"
-        if not outputs.changes_anything(parts, wish):
-            return self._cancel(context, level, message, outcomes)
-        outputs.write(context, parts, wish)
-        panels.show_result(context, message, outcomes)
-        self.report({level}, message)
-        return {"FINISHED"}
+        return self.finish(context, parts, wish)
 
     def draw(self, context):
         panels.draw_settings(self.layout, self)
         panels.draw_more_settings(self.layout, self)
-
-    def _cancel(self, context, level, message, outcomes=()):
-        panels.show_result(context, message, outcomes)
-        self.report({level}, message)
-        return {"CANCELLED"}
 
 
 def register():

@@ -88,6 +88,7 @@ class VIEW3D_PT_minimum_ratio_contours(bpy.types.Panel):
         # The panel's settings are the operator's own: those of the last run, which the next run from the panel takes.
         draw_settings(layout.column(), context.window_manager.operator_properties_last(OPERATOR))
         layout.operator(OPERATOR, icon="MOD_EDGESPLIT")
+        layout.operator("mesh.adjust_contour", icon="MODIFIER")
         last = context.window_manager.minimum_ratio_contours
         if last.message:
             _draw_result(layout.box(), context, last)
@@ -136,6 +137,7 @@ def _fill(numbers, outcome):
 def _draw_menu(self, context):
     self.layout.separator()
     self.layout.operator(OPERATOR)
+    self.layout.operator("mesh.adjust_contour")
 
 
 _CLASSES = (

@@ -10,6 +10,7 @@ from .contours import contour_edges
 NOTHING_SELECTED = (
     "Nothing to optimize: select closed loops or open chains of edges, or faces in face mode to use their borders"
 )
+NO_VIEW = "Contours are adjusted in a 3D View: move the mouse over one, or use Optimize Contour"
 _NAMED = 3  # of several alike, only so many are named
 
 
@@ -46,6 +47,11 @@ def summary(outcomes, notes=()):
 
 def single_edge(vertices):
     return f"a single edge, {vertices[0]}-{vertices[-1]}, has nothing to move between its ends; select a longer chain"
+
+
+def pins_outside(count):
+    pins = "1 pinned vertex lies" if count == 1 else f"{count} pinned vertices lie"
+    return f"{pins} outside the band: widen it (wheel), or unpin (X)"
 
 
 def inseparable(outcome):

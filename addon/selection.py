@@ -17,6 +17,11 @@ class Part:
     outcomes: list
     warnings: list
     mirrored: bool = False  # whether there are contours that were not selected, but their mirror images
+    asymmetric: bool = False  # whether mirror images were asked for and are not there
+
+    def sound(self):
+        """The contours that can be handed to the search."""
+        return [outcome for outcome in self.outcomes if not outcome.problem]
 
     def done(self):
         """The contours that are output."""
@@ -30,10 +35,15 @@ class Part:
 
 def optimize_selection(objects, face_mode, settings):
     """A Part for each object, with an outcome for each connected piece of its selection."""
-    return [_optimize_part(obj, objects, face_mode, settings) for obj in objects]
+    parts = [read_part(obj, face_mode) for obj in objects]
+    for part in parts:
+        _optimize(part.obj, objects, part.sound(), settings)
+        note_warnings(part)
+    return parts
 
 
-def _optimize_part(obj, objects, face_mode, settings):
+def read_part(obj, face_mode):
+    """One object's share of the selection, not yet searched for."""
     mesh_access.synchronize(obj)
     selection = mesh_access.read_selection(obj, face_mode)
     mirror = obj.data.use_mirror_x and len(selection.edges) > 0
@@ -42,11 +52,13 @@ def _optimize_part(obj, objects, face_mode, settings):
     outcomes = _outcomes(obj.name, edges, face_mode)
     for outcome in outcomes:
         outcome.problem = outcome.problem or _problem(outcome, selection.loose)
-    _optimize(obj, objects, [outcome for outcome in outcomes if not outcome.problem], settings)
-    part = Part(obj, outcomes, [], mirrored=len(edges) > len(selection.edges))
+    return Part(obj, outcomes, [], len(edges) > len(selection.edges), asymmetric=mirror and images is None)
+
+
+def note_warnings(part):
+    """What the user should know about how the object is measured, where anything was."""
     if part.done():
-        part.warnings = _warnings(obj) + [report.not_mirrored(obj.name)] * (mirror and images is None)
-    return part
+        part.warnings = _warnings(part.obj) + [report.not_mirrored(part.obj.name)] * part.asymmetric
 
 
 def _outcomes(place, edges, face_mode):
