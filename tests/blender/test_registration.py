@@ -10,11 +10,12 @@ MODULE = "minimum_ratio_contours"
 
 
 def traces():
-    """Whether the operator, the panel, the menu entry and the window manager's property are there."""
+    """Whether the operators, the panel, the menu entry and the window manager's property are there."""
     menu = bpy.types.VIEW3D_MT_edit_mesh_edges
     entries = [function for function in menu._dyn_ui_initialize() if function.__module__.startswith(MODULE)]
     return (
         hasattr(bpy.types, "MESH_OT_optimize_contour"),
+        hasattr(bpy.types, "MESH_OT_adjust_contour"),
         hasattr(bpy.types, "VIEW3D_PT_minimum_ratio_contours"),
         len(entries) == 1,
         hasattr(bpy.types.WindowManager, "minimum_ratio_contours"),
@@ -22,13 +23,13 @@ def traces():
 
 
 def test_disabling_leaves_nothing_and_enabling_brings_it_back():
-    assert traces() == (True,) * 4
+    assert traces() == (True,) * 5
     addon_utils.disable(MODULE)
     try:
-        assert traces() == (False,) * 4
+        assert traces() == (False,) * 5
     finally:
         addon_utils.enable(MODULE)
-    assert traces() == (True,) * 4
+    assert traces() == (True,) * 5
 
 
 def test_the_versions_agree():

@@ -25,6 +25,10 @@ class Window:
             bpy.ops.object.mode_set(mode="OBJECT")
         bpy.data.batch_remove([*bpy.data.objects, *bpy.data.meshes])
         bpy.context.scene.tool_settings.mesh_select_mode = (False, True, False)
+        last = bpy.context.window_manager.operator_properties_last("mesh.optimize_contour")
+        names = list(last.keys())
+        for name in names:
+            last.property_unset(name)
         self.area.spaces.active.show_region_ui = False
         self.view.view_perspective = "PERSP"
         self.view.view_rotation = Vector((0.0, 0.9, -0.45)).to_track_quat("-Z", "Y")
@@ -79,6 +83,11 @@ class Window:
         shape = image.size[1], image.size[0], 4
         bpy.data.images.remove(image)
         return pixels.reshape(shape)
+
+    def upper(self, pixels):
+        """Those of a picture that show the upper part of the view, where no message of Blender's lies over it."""
+        bottom = self.region.y + 2 * self.region.height // 5
+        return pixels[bottom : self.region.y + self.region.height, self.region.x : self.region.x + self.region.width]
 
     def _event(self, key, value, **modifiers):
         self.window.event_simulate(key, value, x=self.mouse[0], y=self.mouse[1], **modifiers)
