@@ -125,8 +125,9 @@ class MESH_OT_adjust_contour(ContourSettings, ContourOutput, InEditMode, bpy.typ
             try:
                 preview.search(self._state)
             except ValueError as error:
-                outside = preview.pins_outside(self._state)
-                self._problem = report.pins_outside(outside) if outside else str(error)
+                self._problem = report.unsearchable(
+                    error, preview.pins_outside(self._state), native.module().Infeasible
+                )
 
     def _step(self, state):
         """Goes on with other settings or pins; one command changes one thing, and the output needs no search."""

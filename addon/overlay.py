@@ -32,12 +32,10 @@ class Overlay:
 
     def _draw(self):
         context = bpy.context
-        shading = context.space_data.shading
-        seen_through = shading.show_xray_wireframe if shading.type == "WIREFRAME" else shading.show_xray
         if self._batches is None:
             self._batches = [(matrix, _Batches(shapes)) for matrix, shapes in self._items]
         projection = _towards_eye(gpu.matrix.get_projection_matrix(), context.region_data)
-        gpu.state.depth_test_set("NONE" if seen_through else "LESS_EQUAL")
+        gpu.state.depth_test_set("NONE" if _seen_through(context.space_data.shading) else "LESS_EQUAL")
         gpu.state.blend_set("ALPHA")
         try:
             for matrix, batches in self._batches:
@@ -104,6 +102,11 @@ def _point_shader():
 def _batch(shader, kind, points):
     """None where there is nothing to draw: some drivers take empty batches amiss."""
     return batch_for_shader(shader, kind, {"pos": np.ascontiguousarray(points)}) if len(points) else None
+
+
+def _seen_through(shading):
+    """Whether the view shows what lies behind the surface."""
+    return {"SOLID": shading.show_xray, "WIREFRAME": shading.show_xray_wireframe}.get(shading.type, False)
 
 
 def _towards_eye(projection, view):

@@ -49,9 +49,14 @@ def single_edge(vertices):
     return f"a single edge, {vertices[0]}-{vertices[-1]}, has nothing to move between its ends; select a longer chain"
 
 
-def pins_outside(count):
-    pins = "1 pinned vertex lies" if count == 1 else f"{count} pinned vertices lie"
-    return f"{pins} outside the band: widen it (wheel), or unpin (X)"
+def unsearchable(error, pins_outside, infeasible):
+    """Why nothing could be searched for with the pins there are; `infeasible` is the native error's class."""
+    if pins_outside:
+        pins = "1 pinned vertex lies" if pins_outside == 1 else f"{pins_outside} pinned vertices lie"
+        return f"{pins} outside the band: widen it (wheel), or unpin (X)"
+    if isinstance(error, infeasible):
+        return "No contour in the band passes all pinned vertices: click one to unpin it, or widen the band (wheel)"
+    return str(error)
 
 
 def inseparable(outcome):

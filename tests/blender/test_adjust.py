@@ -80,6 +80,14 @@ def test_pins_outside_the_band_are_counted(last):
     assert "2 pinned vertices" in last.message
 
 
+def test_pins_that_no_contour_passes_are_explained(last):
+    obj = prepared()
+    before = everything(obj)
+    assert ADJUST(width=8, reach=0.0, max_turn=0.2, pins=[pin(ABOVE), pin(ABOVE - 3 * SEGMENTS + 1)]) == {"CANCELLED"}
+    assert everything(obj) == before
+    assert "passes all pinned vertices" in last.message
+
+
 @pytest.mark.parametrize("call", ["EXEC_DEFAULT", "INVOKE_DEFAULT"])
 def test_nothing_selected(call, last):
     obj = prepared()

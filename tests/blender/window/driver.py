@@ -35,9 +35,12 @@ class Window:
         self.view.view_location, self.view.view_distance = (0.0, 0.0, 2.0), 9.0
         yield from self.move(20, 20)
 
+    def context(self):
+        return bpy.context.temp_override(window=self.window, area=self.area, region=self.region)
+
     def operator(self, name, **settings):
         """Starts a mesh operator as the menu does."""
-        with bpy.context.temp_override(window=self.window, area=self.area, region=self.region):
+        with self.context():
             return getattr(bpy.ops.mesh, name)("INVOKE_DEFAULT", True, **settings)
 
     def wait(self):
@@ -75,7 +78,7 @@ class Window:
     def picture(self, name):
         """The pixels of the window, which are also kept as a picture."""
         path = str(self.pictures / f"{name}.png")
-        with bpy.context.temp_override(window=self.window, area=self.area, region=self.region):
+        with self.context():
             bpy.ops.screen.screenshot(filepath=path)
         image = bpy.data.images.load(path)
         pixels = np.empty(len(image.pixels), dtype=np.float32)

@@ -89,6 +89,9 @@ def test_a_pinned_vertex_is_passed_and_a_second_click_unpins_it(window):
         yield from window.press("NUMPAD_ENTER")
         passed = {end for pair in flagged(now(), "select") for end in pair}
         assert (vertex in passed) == (clicks == 1)
+        with window.context():
+            bpy.ops.ed.undo_redo()  # as the redo panel does after a change
+        assert {end for pair in flagged(now(), "select") for end in pair} == passed
         yield from window.fresh()
 
 
