@@ -201,10 +201,13 @@ def test_pins_are_passed_each_by_its_own_contour():
 
 
 def test_a_pin_outside_the_band_leaves_the_band_and_no_result():
-    shown, state = made(GROOVE - 3), start(width=1).toggled(0, 16 * SEGMENTS).toggled(0, (GROOVE - 3) * SEGMENTS)
+    shown, state = (
+        made(GROOVE - 3),
+        start(width=1).toggled(0, 16 * SEGMENTS).toggled(0, 15 * SEGMENTS).toggled(0, (GROOVE - 3) * SEGMENTS),
+    )
     with pytest.raises(ValueError, match="outside the band"):
         shown.search(state)
-    assert shown.pins_outside(state) == 1
+    assert shown.pins_outside(state) == 2
     assert shown.outcomes[0].result is None
     assert len(shown.bands[0]) > 0
     assert len(shown.shapes(state).found) == 0

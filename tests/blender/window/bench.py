@@ -95,20 +95,27 @@ def measure():
     edit(obj)
     select(obj, pairs(square(GROOVE - 10, 100, 25)))
     first, shown = milliseconds(begin, obj)
-    settings = {name: row["default"] for name, row in parameters.SETTINGS.items()} | {"reach": 0.0, "width": 1}
-    state = adjust_state.State.start(settings, "SELECT")
-    timed, rows = TimedModule(native.module()), []
+    print(f"{len(obj.data.polygons)} triangles, before the first frame: {first:.0f} ms")
+    timed = TimedModule(native.module())
     native.module = lambda: timed
+    for refinement in (0, 1, 2):
+        measure_steps(shown, timed, refinement)
+
+
+def measure_steps(shown, timed, refinement):
+    settings = {name: row["default"] for name, row in parameters.SETTINGS.items()}
+    settings |= {"reach": 0.0, "width": 1, "refinement": refinement}
+    state, rows = adjust_state.State.start(settings, "SELECT"), []
     for command in STEPS:
         state, timed.taken = adjust_state.changed(state, command), 0.0
         whole, _ = milliseconds(step, shown, state)
         rows.append((len(shown.bands[0]), whole, whole - timed.taken))
     faces, whole, besides = np.array(rows[1:]).T
     assert faces.max() <= LIMIT
-    print(f"{len(obj.data.polygons)} triangles, bands of {faces.min():.0f} to {faces.max():.0f}")
-    print(f"before the first frame: {first:.0f} ms")
-    for name, values in (("step", whole), ("of it besides the native calls", besides)):
-        print(f"{name}: median {np.median(values):.2f} ms, 95 % below {np.percentile(values, 95):.2f} ms")
+    print(f"refinement {refinement}, bands of {faces.min():.0f} to {faces.max():.0f} faces:", end=" ")
+    for name, values in (("a step", whole), ("; of it besides the native calls", besides)):
+        print(f"{name} {np.median(values):.2f} ms (95 %: {np.percentile(values, 95):.2f})", end="")
+    print()
 
 
 def run():
