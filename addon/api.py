@@ -10,6 +10,7 @@ its vertex groups, attributes and marked edges. Bad input raises a ValueError th
 """
 
 from . import constraints, mesh_access, native, networks, parameters, seams, segmentation
+from .constraint_arrays import native_keywords
 
 _kept = {}  # mesh name -> (MeshArrays, Surface), of the meshes of the last call
 
@@ -39,12 +40,8 @@ def optimize_all_on(surface, contours, closed=True, progress=None, constraints=N
     `progress` is called with the share done; an exception that it raises passes through.
     """
     mrc = native.module()
-    options = parameters.native_options(**settings)
-    if constraints is None:
-        keywords = {"options": mrc.Options(**options)}
-    else:
-        each_closed = [closed] * len(contours) if isinstance(closed, bool) else closed
-        keywords = constraints.keywords(mrc, surface, contours, each_closed, options)
+    each_closed = [closed] * len(contours) if isinstance(closed, bool) else closed
+    keywords = native_keywords(mrc, surface, contours, each_closed, settings, constraints)
     return mrc.optimize_all(surface, contours, closed=closed, progress=progress, **keywords)
 
 
@@ -88,10 +85,15 @@ def curvature(obj, **options):
 
 
 def surface_of(obj, beside=()):
-    """The native surface of a synchronized mesh object.
+    """The native surface of a synchronized mesh object; see arrays_and_surface_of."""
+    return arrays_and_surface_of(obj, beside)[1]
 
-    It is kept while the mesh is unchanged, along with those of the objects `beside` it. Whether it is unchanged is seen
-    by comparing all arrays, which takes ten milliseconds for a million triangles and cannot be fooled.
+
+def arrays_and_surface_of(obj, beside=()):
+    """The arrays of a synchronized mesh object and the native surface made from them.
+
+    They are kept while the mesh is unchanged, along with those of the objects `beside` it. Whether it is unchanged is
+    seen by comparing all arrays, which takes ten milliseconds for a million triangles and cannot be fooled.
     """
     mrc = native.module()
     arrays = mesh_access.read_arrays(obj)
@@ -101,7 +103,7 @@ def surface_of(obj, beside=()):
     if known is None or not known[0].equal(arrays):
         _kept.pop(name, None)
         _kept[name] = arrays, mrc.Surface(**vars(arrays))
-    return _kept[name][1]
+    return _kept[name]
 
 
 def are_current(surfaces):

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .contours import common_edges, contour_edges
+from .parameters import native_options
 
 
 def _ids(*shape):
@@ -100,6 +101,14 @@ class Constraints:
         weights = self.pulls.copy() if len(self.pulls) else np.zeros(len(self.points))
         weights[marked.ravel()] = 1.0
         return weights
+
+
+def native_keywords(mrc, surface, contours, closed, settings, constraints=None):
+    """Keyword arguments of mrc.optimize_all for settings of the table, and for Constraints where there are some."""
+    options = native_options(**settings)
+    if constraints is None:
+        return {"options": mrc.Options(**options)}
+    return constraints.keywords(mrc, surface, contours, closed, options)
 
 
 def attractors(points, vertices, weights, radius, strength):

@@ -26,22 +26,26 @@ class VIEW3D_MT_minimum_ratio_contours(bpy.types.Menu):
 def _draw_edge(self, context):
     self.layout.separator()
     self.layout.operator(OPERATOR)
+    self.layout.operator("mesh.adjust_contour")
     self.layout.menu(VIEW3D_MT_minimum_ratio_contours.bl_idname)
 
 
 def _draw_context(self, context):
     self.layout.separator()
     self.layout.operator(OPERATOR)
+    self.layout.operator("mesh.adjust_contour")
 
 
 def _draw_face(self, context):
     self.layout.separator()
     self.layout.operator(OPERATOR, text="Optimize Contour of Faces")
+    self.layout.operator("mesh.optimize_segmentation")
 
 
 def _draw_uv(self, context):
     self.layout.separator()
     self.layout.operator(OPERATOR, text="Optimize Contour to Seam").output = "SEAM"
+    self.layout.operator("mesh.optimize_seams")
 
 
 def _draw_mesh(self, context):

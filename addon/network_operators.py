@@ -159,25 +159,11 @@ Where three regions meet they stay together, and no region is lost"""
         row.prop_search(self, "attribute", context.object.data, "attributes")
 
 
-def _draw_uv_menu(self, context):
-    self.layout.separator()
-    self.layout.operator(MESH_OT_optimize_seams.bl_idname)
-
-
-def _draw_face_menu(self, context):
-    self.layout.separator()
-    self.layout.operator(MESH_OT_optimize_segmentation.bl_idname)
-
-
 def register():
     bpy.utils.register_class(MESH_OT_optimize_seams)
     bpy.utils.register_class(MESH_OT_optimize_segmentation)
-    bpy.types.VIEW3D_MT_uv_map.append(_draw_uv_menu)
-    bpy.types.VIEW3D_MT_edit_mesh_faces.append(_draw_face_menu)
 
 
 def unregister():
-    bpy.types.VIEW3D_MT_edit_mesh_faces.remove(_draw_face_menu)
-    bpy.types.VIEW3D_MT_uv_map.remove(_draw_uv_menu)
     bpy.utils.unregister_class(MESH_OT_optimize_segmentation)
     bpy.utils.unregister_class(MESH_OT_optimize_seams)

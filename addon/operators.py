@@ -34,6 +34,12 @@ class ContourSettings(NetworkSettings):
     refinement: IntProperty(**SETTINGS["refinement"])
     regular_iterations: IntProperty(**SETTINGS["regular_iterations"])
     ends: EnumProperty(**SETTINGS["ends"])
+    close: BoolProperty(
+        name="Close Chains",
+        description="Close each open chain of edges round the limb that it lies on before it is optimized, so that a "
+        "quarter of a loop is enough. Stay Near then holds the contour near the loop so closed",
+        default=False,
+    )
 
 
 class ContourConstraints:
@@ -160,13 +166,6 @@ class MESH_OT_optimize_contour(
     bl_idname = "mesh.optimize_contour"
     bl_label = "Optimize Contour"
 
-    close: BoolProperty(
-        name="Close Chains",
-        description="Close each open chain of edges round the limb that it lies on before it is optimized, so that a "
-        "quarter of a loop is enough. Stay Near then holds the contour near the loop so closed",
-        default=False,
-    )
-
     def read(self, context):
         wish = self.wish(context)
         objects = context.objects_in_mode_unique_data
@@ -188,6 +187,12 @@ class MESH_OT_optimize_contour(
         panels.draw_more_settings(self.layout, self)
         self.layout.separator()
         panels.draw_constraints(self.layout, self, context.object)
+
+
+def properties_of(*mixins):
+    """The properties that mixins give an operator, by name."""
+    classes = [cls for mixin in mixins for cls in mixin.__mro__]
+    return {name: prop for cls in classes for name, prop in cls.__dict__.get("__annotations__", {}).items()}
 
 
 def register():

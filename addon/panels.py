@@ -140,6 +140,7 @@ class VIEW3D_PT_minimum_ratio_contours(bpy.types.Panel):
         # The panel's settings are the operator's own: those of the last run, which the next run from the panel takes.
         draw_settings(layout.column(), context.window_manager.operator_properties_last(OPERATOR))
         layout.operator(OPERATOR, icon="MOD_EDGESPLIT")
+        layout.operator("mesh.adjust_contour", icon="MODIFIER")
         layout.operator("mesh.show_curvature", icon="COLOR")
 
     def draw_header_preset(self, context):

@@ -4,14 +4,9 @@
 import bpy
 
 from . import native, panels
-from .operators import ContourOutput, ContourSettings
+from .operators import ContourOutput, ContourSettings, properties_of
 
-_PROPERTIES = {
-    name: prop
-    for source in (ContourSettings, ContourOutput)
-    for cls in source.__mro__
-    for name, prop in cls.__dict__.get("__annotations__", {}).items()
-}
+_PROPERTIES = properties_of(ContourSettings, ContourOutput)
 
 
 def _changed(preferences, context):

@@ -13,6 +13,7 @@ NOTHING_SELECTED = (
 CANCELLED = "Cancelled: everything is as it was"
 CHANGED_MEANWHILE = "The mesh was changed during the search, so that nothing was written; run it again"
 NO_FACES = "there are no faces, which alone are curved"
+NO_VIEW = "Contours are adjusted in a 3D View: move the mouse over one, or use Optimize Contour"
 _SALIENCES = (  # from this salience on, in words
     (2.0, "clear boundary"),
     (1.0, "good boundary"),
@@ -69,6 +70,16 @@ def meets_another(vertices):
         f"the open chain from vertex {vertices[0]} to {vertices[-1]}, once closed, would meet another contour; "
         "select one chain or loop for each limb"
     )
+
+
+def unsearchable(error, pins_outside, infeasible):
+    """Why nothing could be searched for with the pins there are; `infeasible` is the native error's class."""
+    if pins_outside:
+        pins = "1 pinned vertex lies" if pins_outside == 1 else f"{pins_outside} pinned vertices lie"
+        return f"{pins} outside the band: widen it (wheel), or unpin (X)"
+    if isinstance(error, infeasible):
+        return "No contour in the band passes all pinned vertices: click one to unpin it, or widen the band (wheel)"
+    return str(error)
 
 
 def inseparable(outcome):

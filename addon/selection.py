@@ -20,7 +20,8 @@ class Part:
     warnings: list
     mirrored: bool = False  # whether there are contours that were not selected, but their mirror images
     asymmetric: bool = False  # whether mirror images were asked for and are not there
-    surface: object = None  # the native surface, where there is something to optimize
+    arrays: object = None  # of the mesh, where there is something to optimize
+    surface: object = None  # the native one made from them
     constraints: object = None  # what the mesh's layers ask of the contours
     has_left: bool = False  # whether a side of the contours was selected, in face mode, which is then their left
     outside: tuple = ()  # required vertices where nothing is searched
@@ -53,7 +54,7 @@ def read_parts(objects, face_mode, close=False, constraints=None):
     for part in parts:
         if part.sound():
             try:
-                part.surface = api.surface_of(part.obj, beside=objects)
+                part.arrays, part.surface = api.arrays_and_surface_of(part.obj, beside=objects)
                 part.constraints = layers.read(part.obj, **(constraints or {}))
             except ValueError as error:
                 part.fail(error)
@@ -64,13 +65,26 @@ def optimize_parts(parts, settings, progress=None):
     """Gives each outcome its result, or the problem that keeps it from one. Without bpy, for any thread."""
     searched = [part for part in parts if part.surface]
     for i, part in enumerate(searched):
-        _close(part.surface, part.sound())
         try:
-            _prepare_for_region(part)
+            complete(part)
             _fill_in(part, part.sound(), settings, jobs.share_of(progress, i, len(searched)))
         except ValueError as error:
             part.outside = error.vertices if isinstance(error, OutsideBand) else ()
             part.fail(error)
+
+
+def complete(part):
+    """Closes the chains that are to be closed, and turns contours so that what is painted lies to their left."""
+    _close(part.surface, part.sound())
+    _prepare_for_region(part)
+
+
+def find_problems(part, outcomes):
+    """Gives each outcome that is no contour the reason why; the others may stay without a result."""
+    vertices, closed = [outcome.vertices for outcome in outcomes], [outcome.closed for outcome in outcomes]
+    barriers = () if part.constraints is None else part.constraints.barriers_beside(vertices, closed)
+    for outcome in outcomes:
+        outcome.problem = api.problem_on(part.surface, outcome.vertices, outcome.closed, barriers)
 
 
 def read_part(obj, face_mode, close=False):
@@ -168,9 +182,7 @@ def _fill_in(part, outcomes, settings, progress):
     except OutsideBand:
         raise
     except ValueError:
-        barriers = () if asked is None else asked.barriers_beside(vertices, closed)
-        for outcome in outcomes:
-            outcome.problem = api.problem_on(surface, outcome.vertices, outcome.closed, barriers)
+        find_problems(part, outcomes)
         sound = [outcome for outcome in outcomes if not outcome.problem]
         if len(sound) == len(outcomes):
             raise

@@ -5,10 +5,11 @@ from collections import Counter
 
 import bpy
 import pytest
-from minimum_ratio_contours import network_operators, operators
+from minimum_ratio_contours import adjust, network_operators, operators
 
 OPERATORS = (
     operators.MESH_OT_optimize_contour,
+    adjust.MESH_OT_adjust_contour,
     network_operators.MESH_OT_optimize_seams,
     network_operators.MESH_OT_optimize_segmentation,
 )
@@ -23,7 +24,14 @@ class Layout:
     def row(self, **_):
         return self
 
-    def prop(self, _, name):
+    column = row
+
+    def separator(self):
+        pass
+
+    label = row
+
+    def prop(self, _, name, **__):
         self.drawn[name] += 1
 
     def prop_search(self, _, name, *others):
@@ -49,7 +57,7 @@ def test_every_property_is_shown_once(operator):
     bpy.ops.mesh.primitive_cube_add()
     shown = Shown(operator)
     operator.draw(shown, bpy.context)
-    names = set(shown.properties.bl_rna.properties.keys()) - {"rna_type"}
+    names = {prop.identifier for prop in shown.properties.bl_rna.properties if not prop.is_hidden} - {"rna_type"}
     assert {"width", "min_salience"} < names
     assert shown.layout.drawn == Counter(names)
 

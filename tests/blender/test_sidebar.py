@@ -7,8 +7,19 @@ from unittest.mock import MagicMock
 
 import bpy
 import pytest
-from made_meshes import GROOVE, edit, flagged, grooved_cylinder, pairs, ring, rough_loop, select
-from minimum_ratio_contours import menus, panels, parameters, preferences, presets
+from made_meshes import (
+    GROOVE,
+    SEGMENTS,
+    edit,
+    flagged,
+    grooved_cylinder,
+    pairs,
+    ring,
+    rough_loop,
+    select,
+    set_flag,
+)
+from minimum_ratio_contours import menus, panels, parameters, preferences, presets, segmentation
 
 START = rough_loop(GROOVE - 3)
 
@@ -48,6 +59,16 @@ def remembered():
     return bpy.context.window_manager.operator_properties_last(panels.OPERATOR)
 
 
+def ready_for_all():
+    """A mesh in Edit Mode whose selection, seams and face sets can all be optimized."""
+    obj = grooved_cylinder()
+    sets = obj.data.attributes.new(segmentation.FACE_SETS, "INT", "FACE")
+    sets.data.foreach_set("value", [face.index >= (GROOVE - 3) * SEGMENTS for face in obj.data.polygons])
+    edit(obj)
+    select(obj, pairs(START))
+    set_flag(obj, pairs(START), "seam")
+
+
 def test_every_menu_entry_runs():
     seen = set()
     drawers = [draw for _, draw in menus._ENTRIES] + [menus.VIEW3D_MT_minimum_ratio_contours.draw]
@@ -56,15 +77,17 @@ def test_every_menu_entry_runs():
         draw(menu, bpy.context)
         assert menu.layout.drawn
         for idname, _, properties in menu.layout.drawn:
-            obj = grooved_cylinder()
-            edit(obj)
-            select(obj, pairs(START))
+            ready_for_all()
             category, name = idname.split(".")
             assert getattr(getattr(bpy.ops, category), name)(**vars(properties)) == {"FINISHED"}
             seen.add((idname, *vars(properties).values()))
             bpy.ops.object.mode_set(mode="OBJECT")
     assert {output for _, *outputs in seen for output in outputs} == {"SEAM", "SHARP", "CUT", "RIP", "SEPARATE"}
-    assert ("mesh.show_curvature",) in seen
+    names = {idname for idname, *_ in seen}
+    assert names == {f"mesh.{name}" for name in dir(bpy.ops.mesh) if "optimize" in name} | {
+        "mesh.adjust_contour",
+        "mesh.show_curvature",
+    }
 
 
 def test_the_panel_says_what_was_found(last):

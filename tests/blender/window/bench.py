@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Times the modal operator's steps on a million triangles against the native calls within them.
+
+xvfb-run -a -s "-screen 0 1600x1000x24" env LIBGL_ALWAYS_SOFTWARE=1 blender --factory-startup --python \
+    tests/blender/window/bench.py
+"""
+
+import os
+import sys
+import time
+import traceback
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+bpy.ops.preferences.addon_enable(module="minimum_ratio_contours")
+
+from made_meshes import edit, pairs, select  # noqa: E402
+from minimum_ratio_contours import adjust_state, api, native, overlay, parameters, preview, selection  # noqa: E402
+
+COLUMNS, ROWS, GROOVE = 1000, 500, 250
+LIMIT = 1000  # faces of a band
+STEPS = ["WIDER", "SHORTER", "NARROWER", "LONGER"] * 25
+
+
+def grooved_tube():
+    """A million triangles: a tube with a groove round its middle."""
+    angles, rows = 2 * np.pi * np.arange(COLUMNS) / COLUMNS, np.arange(ROWS + 1)
+    radii = 1 - 0.2 * np.exp(-(((rows - GROOVE) / 5.0) ** 2) / 2)
+    points = np.stack(
+        [np.outer(radii, np.cos(angles)), np.outer(radii, np.sin(angles)), np.outer(0.006 * rows, np.ones(COLUMNS))], -1
+    )
+    low = np.arange(ROWS * COLUMNS).reshape(ROWS, COLUMNS)
+    beside = np.roll(low, -1, axis=1)
+    triangles = np.stack([low, beside, beside + COLUMNS, low, beside + COLUMNS, low + COLUMNS], -1).reshape(-1, 3)
+    mesh = bpy.data.meshes.new("Tube")
+    mesh.vertices.add(len(low.ravel()) + COLUMNS)
+    mesh.vertices.foreach_set("co", points.astype(np.float32).ravel())
+    mesh.loops.add(triangles.size)
+    mesh.loops.foreach_set("vertex_index", triangles.astype(np.int32).ravel())
+    mesh.polygons.add(len(triangles))
+    mesh.polygons.foreach_set("loop_start", np.arange(0, triangles.size, 3, dtype=np.int32))
+    mesh.polygons.foreach_set("loop_total", np.full(len(triangles), 3, dtype=np.int32))
+    mesh.update(calc_edges=True)
+    obj = bpy.data.objects.new("Tube", mesh)
+    bpy.context.scene.collection.objects.link(obj)
+    return obj
+
+
+def square(row, column, size):
+    """A closed loop of rows and columns."""
+    steps = [(0, 1)] * size + [(1, 0)] * size + [(0, -1)] * size + [(-1, 0)] * size
+    corners = np.cumsum([(row, column), *steps[:-1]], axis=0)
+    return [int(r * COLUMNS + c) for r, c in corners]
+
+
+def milliseconds(call, *arguments, **keywords):
+    begin = time.perf_counter()
+    result = call(*arguments, **keywords)
+    return 1e3 * (time.perf_counter() - begin), result
+
+
+def begin(obj):
+    """What the operator does before its first frame."""
+    part = selection.read_part(obj, False)
+    arrays, surface = api.arrays_and_surface_of(obj)
+    return preview.Preview(arrays, surface, part.sound())
+
+
+def step(shown, state):
+    """What the operator does at every change, to the arrays on the graphics card."""
+    shown.search(state)
+    overlay._Batches(shown.shapes(state))
+
+
+class TimedModule:
+    """The native module, with the time that its calls take."""
+
+    def __init__(self, module):
+        self._module, self.taken = module, 0.0
+
+    def __getattr__(self, name):
+        def call(*arguments, **keywords):
+            taken, result = milliseconds(getattr(self._module, name), *arguments, **keywords)
+            self.taken += taken
+            return result
+
+        return call
+
+
+def measure():
+    obj = grooved_tube()
+    edit(obj)
+    select(obj, pairs(square(GROOVE - 10, 100, 25)))
+    first, shown = milliseconds(begin, obj)
+    print(f"{len(obj.data.polygons)} triangles, before the first frame: {first:.0f} ms")
+    timed = TimedModule(native.module())
+    native.module = lambda: timed
+    for refinement in (0, 1, 2):
+        measure_steps(shown, timed, refinement)
+
+
+def measure_steps(shown, timed, refinement):
+    settings = {name: row["default"] for name, row in parameters.SETTINGS.items()}
+    settings |= {"reach": 0.0, "width": 1, "refinement": refinement}
+    state, rows = adjust_state.State.start(settings, "SELECT"), []
+    for command in STEPS:
+        state, timed.taken = adjust_state.changed(state, command), 0.0
+        whole, _ = milliseconds(step, shown, state)
+        rows.append((len(shown.bands[0]), whole, whole - timed.taken))
+    faces, whole, besides = np.array(rows[1:]).T
+    assert faces.max() <= LIMIT
+    print(f"refinement {refinement}, bands of {faces.min():.0f} to {faces.max():.0f} faces:", end=" ")
+    for name, values in (("a step", whole), ("; of it besides the native calls", besides)):
+        print(f"{name} {np.median(values):.2f} ms (95 %: {np.percentile(values, 95):.2f})", end="")
+    print()
+
+
+def run():
+    """Exceptions in timers leave Blender running: end by hand."""
+    status = 1
+    try:
+        measure()
+        status = 0
+    except BaseException:
+        traceback.print_exc()
+    sys.stdout.flush()
+    os._exit(status)
+
+
+bpy.app.timers.register(run, first_interval=0.5)

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A window of Blender's as a user has it before him: mouse, keys and what is on the screen."""
+
+import bpy
+import numpy as np
+from bpy_extras.view3d_utils import location_3d_to_region_2d
+from mathutils import Vector
+
+PAUSE = 0.02  # seconds between the steps of a scenario
+_DRAWN = 3  # steps until what an event changed is on the screen
+
+
+class Window:
+    def __init__(self, pictures):
+        self.pictures = pictures
+        self.window = bpy.context.window_manager.windows[0]
+        self.area = max(self.window.screen.areas, key=lambda area: area.width * area.height * (area.type == "VIEW_3D"))
+        self.region = next(region for region in self.area.regions if region.type == "WINDOW")
+        self.view = self.area.spaces.active.region_3d
+        self.mouse = self.region.x + 20, self.region.y + 20
+
+    def fresh(self):
+        """An empty scene with Blender's own settings, seen from the front and a little above."""
+        if bpy.context.mode != "OBJECT":
+            bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.data.batch_remove([*bpy.data.objects, *bpy.data.meshes])
+        bpy.context.scene.tool_settings.mesh_select_mode = (False, True, False)
+        last = bpy.context.window_manager.operator_properties_last("mesh.optimize_contour")
+        names = list(last.keys())
+        for name in names:
+            last.property_unset(name)
+        self.area.spaces.active.show_region_ui = False
+        self.view.view_perspective = "PERSP"
+        self.view.view_rotation = Vector((0.0, 0.9, -0.45)).to_track_quat("-Z", "Y")
+        self.view.view_location, self.view.view_distance = (0.0, 0.0, 2.0), 9.0
+        yield from self.move(20, 20)
+
+    def context(self):
+        return bpy.context.temp_override(window=self.window, area=self.area, region=self.region)
+
+    def operator(self, name, **settings):
+        """Starts a mesh operator as the menu does."""
+        with self.context():
+            return getattr(bpy.ops.mesh, name)("INVOKE_DEFAULT", True, **settings)
+
+    def wait(self):
+        for _ in range(_DRAWN):
+            yield
+
+    def move(self, x, y):
+        """Moves the mouse to a place of the view, in pixels."""
+        self.mouse = self.region.x + int(x), self.region.y + int(y)
+        self._event("MOUSEMOVE", "NOTHING")
+        yield from self.wait()
+
+    def press(self, key, times=1, **modifiers):
+        for _ in range(times):
+            self._event(key, "PRESS", **modifiers)
+            if not key.startswith("WHEEL"):
+                self._event(key, "RELEASE", **modifiers)
+            yield from self.wait()
+
+    def drag(self, button, x, y):
+        self._event(button, "PRESS")
+        for _ in range(2):
+            self.mouse = self.mouse[0] + x // 2, self.mouse[1] + y // 2
+            self._event("MOUSEMOVE", "NOTHING")
+            yield
+        self._event(button, "RELEASE")
+        yield from self.wait()
+
+    def click(self, obj, vertex):
+        """Clicks on a vertex."""
+        place = obj.matrix_world @ obj.data.vertices[vertex].co
+        yield from self.move(*location_3d_to_region_2d(self.region, self.view, place))
+        yield from self.press("LEFTMOUSE")
+
+    def picture(self, name):
+        """The pixels of the window, which are also kept as a picture."""
+        path = str(self.pictures / f"{name}.png")
+        with self.context():
+            bpy.ops.screen.screenshot(filepath=path)
+        image = bpy.data.images.load(path)
+        pixels = np.empty(len(image.pixels), dtype=np.float32)
+        image.pixels.foreach_get(pixels)
+        shape = image.size[1], image.size[0], 4
+        bpy.data.images.remove(image)
+        return pixels.reshape(shape)
+
+    def upper(self, pixels):
+        """Those of a picture that show the upper part of the view, where no message of Blender's lies over it."""
+        bottom = self.region.y + 2 * self.region.height // 5
+        return pixels[bottom : self.region.y + self.region.height, self.region.x : self.region.x + self.region.width]
+
+    def _event(self, key, value, **modifiers):
+        self.window.event_simulate(key, value, x=self.mouse[0], y=self.mouse[1], **modifiers)

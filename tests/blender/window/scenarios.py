@@ -1,0 +1,209 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a user does with the modal operator, and what must come of it."""
+
+import math
+
+import bpy
+import numpy as np
+from made_meshes import (
+    GROOVE,
+    SEGMENTS,
+    edge_set,
+    edit,
+    everything,
+    flagged,
+    grooved_cylinder,
+    pairs,
+    ring,
+    rough_loop,
+    select,
+)
+from mathutils import Matrix
+from minimum_ratio_contours.preview import Preview
+
+LOOP = rough_loop(GROOVE - 4)
+FRONT = 3 * SEGMENTS // 4  # the column that faces the view
+
+
+def cylinder(matrix=None):
+    """In Edit Mode with a rough loop selected that the groove lies a few rings above."""
+    obj = grooved_cylinder()
+    obj.matrix_world = matrix or Matrix()
+    edit(obj)
+    select(obj, pairs(LOOP))
+    bpy.ops.ed.undo_push(message="prepared")
+    return obj
+
+
+def now():
+    """Undo replaces the objects: they must be looked up again."""
+    return bpy.data.objects["Cylinder"]
+
+
+def test_escape_leaves_everything_as_it_was(window):
+    obj = cylinder()
+    before = everything(obj)
+    yield from window.wait()
+    untouched = window.picture("before")
+    for leave in ("ESC", "RIGHTMOUSE"):
+        assert window.operator("adjust_contour", width=2) == {"RUNNING_MODAL"}
+        yield from window.press("WHEELUPMOUSE", times=3)
+        yield from window.press("R")
+        yield from window.click(obj, (GROOVE - 2) * SEGMENTS + FRONT)
+        assert not np.array_equal(window.picture("adjusting"), untouched)
+        yield from window.move(20, 20)
+        yield from window.press(leave)
+        assert everything(obj) == before
+        assert np.array_equal(window.picture("after"), untouched)
+
+
+def test_the_wheel_widens_the_band_and_one_undo_takes_all_back(window):
+    before = everything(cylinder())
+    window.operator("adjust_contour", width=1, reach=0.0)
+    yield from window.press("WHEELUPMOUSE", times=5)
+    yield from window.press("RET")
+    assert flagged(now(), "select") == edge_set(ring(GROOVE))
+    assert bpy.context.window_manager.operators[-1].width == 6
+    yield from window.press("Z", ctrl=True)
+    assert everything(now()) == before
+
+
+def test_a_narrow_band_does_not_reach_the_groove(window):
+    cylinder()
+    window.operator("adjust_contour", width=6, reach=0.0)
+    yield from window.press("WHEELDOWNMOUSE", times=5)
+    yield from window.press("SPACE")
+    assert flagged(now(), "select") != edge_set(ring(GROOVE))
+
+
+def test_a_pinned_vertex_is_passed_and_a_second_click_unpins_it(window):
+    matrix = Matrix.Translation((0.5, 0.0, 0.5)) @ Matrix.Rotation(math.radians(20.0), 4, "Y")
+    vertex = (GROOVE - 3) * SEGMENTS + FRONT
+    for clicks in (1, 2):
+        obj = cylinder(matrix)
+        window.operator("adjust_contour", width=8, reach=0.0)
+        for _ in range(clicks):
+            yield from window.click(obj, vertex)
+        yield from window.wait()
+        window.picture(f"pins-{clicks}")
+        yield from window.press("NUMPAD_ENTER")
+        passed = {end for pair in flagged(now(), "select") for end in pair}
+        assert (vertex in passed) == (clicks == 1)
+        with window.context():
+            bpy.ops.ed.undo_redo()  # as the redo panel does after a change
+        assert {end for pair in flagged(now(), "select") for end in pair} == passed
+        yield from window.fresh()
+
+
+def test_pins_outside_the_band_are_not_applied(window):
+    obj = cylinder()
+    before = everything(obj)
+    window.operator("adjust_contour", width=8, reach=0.0)
+    yield from window.click(obj, (GROOVE + 1) * SEGMENTS + FRONT)
+    yield from window.press("WHEELDOWNMOUSE", times=7)
+    window.picture("pin-outside")
+    yield from window.press("RET")
+    assert everything(obj) == before
+    yield from window.press("WHEELUPMOUSE", times=7)
+    yield from window.press("RET")
+    assert (GROOVE + 1) * SEGMENTS + FRONT in {end for pair in flagged(now(), "select") for end in pair}
+
+
+def test_keys_refine_and_choose_the_output(window):
+    faces = len(cylinder().data.polygons)
+    window.operator("adjust_contour", width=8, reach=0.0)
+    yield from window.press("R", times=2)
+    yield from window.press("S")
+    yield from window.press("O")
+    window.picture("refined")
+    yield from window.press("RET")
+    last = bpy.context.window_manager.operators[-1]
+    assert (last.refinement, last.length_bias, last.output) == (2, 2.5, "SEAM")
+    seam = flagged(now(), "seam")
+    assert seam
+    assert seam != edge_set(LOOP)
+    yield from window.press("Z", ctrl=True)
+    assert not flagged(now(), "seam")
+    assert len(now().data.polygons) == faces
+
+
+def test_the_view_turns_meanwhile(window):
+    cylinder()
+    rotation = window.view.view_rotation.copy()
+    window.operator("adjust_contour", width=1, reach=0.0)
+    yield from window.move(400, 400)
+    yield from window.drag("MIDDLEMOUSE", 60, 20)
+    assert window.view.view_rotation.rotation_difference(rotation).angle > 0.01
+    yield from window.press("NUMPAD_5")
+    yield from window.wait()
+    window.picture("turned")
+    yield from window.press("WHEELUPMOUSE", times=5)
+    yield from window.press("RET")
+    assert flagged(now(), "select") == edge_set(ring(GROOVE))
+
+
+def test_other_keys_and_clicks_do_nothing(window):
+    obj = cylinder()
+    before = everything(obj)
+    window.operator("adjust_contour", width=8, reach=0.0)
+    yield from window.move(30, 30)
+    yield from window.press("LEFTMOUSE")
+    for key in ("A", "G", "TAB", "DEL"):
+        yield from window.press(key)
+    yield from window.press("Z", ctrl=True)
+    yield from window.press("ESC")
+    assert everything(obj) == before
+
+
+def test_it_starts_from_the_settings_of_the_panel(window):
+    cylinder()
+    last = bpy.context.window_manager.operator_properties_last("mesh.optimize_contour")
+    last.width, last.reach, last.output = 5, 0.0, "SEAM"
+    window.operator("adjust_contour")
+    yield from window.press("WHEELUPMOUSE")
+    yield from window.press("RET")
+    assert flagged(now(), "seam") == edge_set(ring(GROOVE))
+    assert (last.width, last.output) == (6, "SEAM")
+
+
+def test_beside_the_sidebar(window):
+    cylinder()
+    window.area.spaces.active.show_region_ui = True
+    window.operator("adjust_contour", width=8)
+    yield from window.wait()
+    window.picture("sidebar")
+    yield from window.press("ESC")
+
+
+def test_nothing_selected(window):
+    obj = cylinder()
+    bpy.ops.mesh.select_all(action="DESELECT")
+    before = everything(obj)
+    assert window.operator("adjust_contour") == {"CANCELLED"}
+    assert everything(obj) == before
+    yield from window.wait()
+
+
+def test_outside_a_3d_view_it_says_where_to_go(window):
+    obj = cylinder()
+    before = everything(obj)
+    outliner = next(area for area in window.window.screen.areas if area.type == "OUTLINER")
+    with bpy.context.temp_override(window=window.window, area=outliner):
+        assert bpy.ops.mesh.adjust_contour("INVOKE_DEFAULT", True) == {"CANCELLED"}
+    assert everything(obj) == before
+    assert "3D View" in bpy.context.window_manager.minimum_ratio_contours.message
+    yield from window.wait()
+
+
+def test_a_failure_leaves_nothing_behind(window):
+    cylinder()
+    yield from window.wait()
+    untouched = window.upper(window.picture("before"))
+    window.operator("adjust_contour")
+    search, Preview.search = Preview.search, None
+    try:
+        yield from window.press("PAGE_UP")  # means nothing to the view
+    finally:
+        Preview.search = search
+    yield from window.wait()
+    assert np.array_equal(window.upper(window.picture("after")), untouched)
