@@ -46,6 +46,13 @@ double DistanceField::at(int vertex) const {
     return settle(vertex) ? best_.at(vertex).length : std::numeric_limits<double>::infinity();
 }
 
+bool DistanceField::reaches(int vertex, double distance) const {
+    while (!settled_.contains(vertex)) {
+        if (queue_.empty() || queue_.top().first > distance || !settle_next()) return false;
+    }
+    return best_.at(vertex).length <= distance;
+}
+
 int DistanceField::nearest(int vertex) const { return settle(vertex) ? best_.at(vertex).point : -1; }
 
 std::vector<int> vertices_within(const Surface& surface, std::span<const int> vertices, int rings) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <mrc/energy.h>
 
+#include "attraction.h"
 #include "guide.h"
 
 #include <Eigen/Geometry>
@@ -42,10 +43,10 @@ Energy::Energy(const Surface& surface, const CurvatureField& field, const Scales
       from_given_(surface, scales.given),
       negligible_(1e-4 / scales.h),
       least_cosine_(std::cos(std::min(options.max_turn + 1e-6, std::numbers::pi))) {
-    for (const Attractor& a : attractors) {
-        pulls_.push_back({a, DistanceField(surface, vertex_contour(std::span(&a.vertex, 1), false))});
-    }
+    if (!attractors.empty()) attraction_ = std::make_unique<Attraction>(surface, attractors);
 }
+
+Energy::~Energy() = default;
 
 Frame Energy::frame(const SurfacePoint& point) const {
     return point.is_vertex() ? vertex_frame(point.a) : interpolated_frame(point);
@@ -95,19 +96,7 @@ void Energy::finish(Frame& frame, double kappa, const SurfacePoint& point) const
         const double distance = from_given_.at(point) / (scales_.L0 / (2.0 * std::numbers::pi));
         frame.potential += options_.anchor * scales_.K * distance * distance;
     }
-    frame.potential -= scales_.K * attraction(point);
-}
-
-/// Sum of strength w(d) over the attractors (4.5), w = exp(-d^2 / (2 sigma^2)) up to the radius.
-double Energy::attraction(const SurfacePoint& point) const {
-    double sum = 0.0;
-    for (const auto& [attractor, distance] : pulls_) {
-        const double d = distance.at(point);
-        if (d > attractor.radius) continue;
-        const double sigma = attractor.sigma.value_or(0.5 * attractor.radius);
-        sum += attractor.strength * std::exp(-d * d / (2.0 * sigma * sigma));
-    }
-    return sum;
+    if (attraction_) frame.potential -= scales_.K * attraction_->at(point);
 }
 
 double Energy::crease_cost(int halfedge) const {

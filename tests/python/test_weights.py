@@ -16,7 +16,7 @@ FAMILIES = [annulus, cylinder, torus, chain]
 
 def attractors(rng, mesh):
     result = []
-    for _ in range(int(rng.integers(1, 3))):
+    for _ in range(int(rng.choice([1, 2, 30]))):
         strength = float(rng.choice([-2.0, 0.5, 3.0]))
         attractor = (int(rng.integers(len(mesh.positions))), float(rng.uniform(0.3, 4.0)), strength)
         result.append(attractor if rng.random() < 0.5 else (*attractor, float(rng.uniform(0.2, 3.0))))
@@ -147,6 +147,29 @@ def test_attraction_and_repulsion(realistic):
 
     amounts = [felt(strength) for strength in (-5.0, 0.0, 5.0, 50.0)]
     assert (np.diff(amounts) >= -1e-12 * max(map(abs, amounts))).all()
+
+
+def test_a_whole_painted_mesh_pulls_only_where_it_is_felt(realistic):
+    """Attractors that no place of the band feels change no bit, wherever they stand among those that are felt."""
+    _, mesh, contour = realistic
+    radius = float(np.ptp(mesh.positions)) / 30
+    band = band_vertices(mesh, contour, width=2)
+    near = np.linalg.norm(mesh.positions[:, None] - mesh.positions[band], axis=2).min(axis=1) <= 1.001 * radius
+    options = {"width": 2, "iterations": 1, "refinement": 1}
+    everywhere, felt = (
+        optimize(mesh, contour, [(v, radius, 0.2) for v in np.flatnonzero(kept)], **options)
+        for kept in (np.ones(len(near), dtype=bool), near)
+    )
+    assert not near.all()
+    assert points_of(everywhere) == points_of(felt)
+    assert (everywhere.ratio, everywhere.objective) == (felt.ratio, felt.objective)
+
+
+def band_vertices(mesh, contour, width):
+    """The vertices of a band."""
+    options = mrc.Options(**(ALL | {"width": width}))
+    faces = mrc.band(surface_of(mesh), contour, options=options)
+    return np.unique(np.concatenate([mesh.faces[face] for face in faces]))
 
 
 def inside_out(mesh):

@@ -21,6 +21,8 @@ class DistanceField {
 
     /// Infinity where no edges lead there.
     double at(int vertex) const;
+    /// Whether it is at most so far; looks no farther.
+    bool reaches(int vertex, double distance) const;
     /// The place in the contour of the point from which the shortest path leads there, or -1 where no edges lead there.
     int nearest(int vertex) const;
     /// Linear inside an edge.

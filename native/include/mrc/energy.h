@@ -8,8 +8,11 @@
 #include <mrc/wishes.h>
 
 #include <cmath>
+#include <memory>
 
 namespace mrc {
+
+class Attraction;
 
 /// What eq. 3.2 needs to know at a point of the surface.
 struct Frame {
@@ -77,6 +80,7 @@ class Energy {
     /// All arguments must outlive the energy.
     Energy(const Surface& surface, const CurvatureField& field, const Scales& scales, const Options& options,
            const std::vector<Attractor>& attractors = {});
+    ~Energy();
 
     /// kappa interpolates linearly along an edge, the direction through its projector p p^T (eq. 3.5), which needs no sign.
     Frame frame(const SurfacePoint& point) const;
@@ -115,17 +119,12 @@ class Energy {
     const Scales& scales_;
     const Options& options_;
     DistanceField from_given_;
-    struct Pull {
-        Attractor attractor;
-        DistanceField distance;
-    };
-    std::vector<Pull> pulls_;
+    std::unique_ptr<const Attraction> attraction_;  // none without attractors
     double negligible_, least_cosine_;
 
     Frame vertex_frame(int vertex) const;
     Frame interpolated_frame(const SurfacePoint& point) const;
     double feature(int vertex) const;
-    double attraction(const SurfacePoint& point) const;
     void finish(Frame& frame, double kappa, const SurfacePoint& point) const;
 };
 
