@@ -76,6 +76,7 @@ PyCurvature curvature(const Surface& surface, const Options& options, const Scal
         values = mrc::curvature(surface, options, scales);
     }
     std::vector<double> least, most;
+    least.reserve(values.size()), most.reserve(values.size());
     for (const auto& c : values) {
         least.push_back(c.kappa_min);
         most.push_back(c.kappa_max);
@@ -86,6 +87,7 @@ PyCurvature curvature(const Surface& surface, const Options& options, const Scal
 
 Integers band_faces(const mrc::SearchSpace& space) {
     std::vector<int> faces;
+    faces.reserve(space.band.polygons.size());
     for (const int polygon : space.band.polygons) faces.push_back(space.patch.polygon_face[polygon]);
     std::ranges::sort(faces);
     return to_array(faces);
@@ -107,6 +109,7 @@ py::list curves(const mrc::Patch& patch, const std::vector<std::vector<int>>& lo
     py::list list;
     for (const auto& curve : local) {
         std::vector<int> vertices;
+        vertices.reserve(curve.size());
         for (const int v : curve) vertices.push_back(patch.vertex[v]);
         list.append(to_array(vertices));
     }

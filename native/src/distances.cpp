@@ -23,7 +23,8 @@ void DistanceField::reach(int vertex, Way way) const {
 
 bool DistanceField::settle_next() const {
     while (!queue_.empty()) {
-        const auto [distance, vertex] = queue_.top();
+        const double distance = queue_.top().first;
+        const int vertex = queue_.top().second;
         queue_.pop();
         if (!settled_.insert(vertex).second) continue;
         const int point = best_.at(vertex).point;

@@ -74,11 +74,9 @@ std::vector<int> without_spurs(const std::vector<int>& chain, bool closed) {
         kept.push_back(v);
     }
     while (closed && kept.size() > 2) {
-        if (kept.front() == kept.back()) {
-            kept.pop_back();
-        } else if (kept[1] == kept.back()) {
+        if (kept.front() != kept.back() && kept[1] == kept.back()) {
             kept.erase(kept.begin());
-        } else if (kept[kept.size() - 2] == kept.front()) {
+        } else if (kept.front() == kept.back() || kept[kept.size() - 2] == kept.front()) {
             kept.pop_back();
         } else {
             break;

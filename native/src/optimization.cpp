@@ -210,12 +210,14 @@ void Optimization::accept(const Contour& found, const std::optional<EdgeForm>& r
 }
 
 /// Nothing concave was found to go to (min_salience).
-bool Optimization::featureless() const { return options_.min_salience && result_.salience < *options_.min_salience; }
+bool Optimization::featureless() const {
+    return result_.salience < options_.min_salience.value_or(-std::numeric_limits<double>::infinity());
+}
 
 void Optimization::explain_featureless() {
     std::ostringstream reason;
     reason << "there is nothing concave to find here: the best contour's salience is " << result_.salience << ", below "
-           << *options_.min_salience;
+           << options_.min_salience.value_or(0.0);
     result_.reason = reason.str();
 }
 
