@@ -122,7 +122,7 @@ void Optimization::search(Partition* partition, int number, const Beat& beat) {
     const Flow flow = stopwatch_.time("flow", [&] { return make_flow(*patch_, band_, options_); });
     if (beat) beat();
     stopwatch_.time("curvature", [&] { prepare_curvature(beat); });
-    const std::optional<EdgeForm> region = make_region_form(flow);
+    const std::optional<EdgeForm> region = make_region_form(*patch_, flow);
     const ContourGraph graph = stopwatch_.time("graph", [&] {
         return make_graph(surface_, *patch_, band_, flow, setting_->energy, options_, wishes_, steiner_,
                           region ? &*region : nullptr, territory_, beat);
@@ -189,9 +189,9 @@ RatioOptions Optimization::search_options(const Beat& beat) const {
     return options;
 }
 
-std::optional<EdgeForm> Optimization::make_region_form(const Flow& flow) const {
+std::optional<EdgeForm> Optimization::make_region_form(const Patch& patch, const Flow& flow) const {
     if (wishes_.region_density.empty() || options_.region_weight == 0.0) return std::nullopt;
-    return region_form(surface_, *patch_, band_, flow, wishes_.region_density, enclosed_);
+    return region_form(surface_, patch, band_, flow, wishes_.region_density, enclosed_);
 }
 
 void Optimization::accept(const Contour& found, const std::optional<EdgeForm>& region) {

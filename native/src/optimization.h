@@ -100,7 +100,7 @@ class Optimization {
     void accept(const Contour& found, const std::optional<EdgeForm>& region);
     void conclude(const ContourGraph& graph, const RatioResult& best, double before);
     RatioOptions search_options(const Beat& beat) const;
-    std::optional<EdgeForm> make_region_form(const Flow& flow) const;
+    std::optional<EdgeForm> make_region_form(const Patch& patch, const Flow& flow) const;
     bool featureless() const;
     void explain(const RatioResult& best);
     void explain_featureless();
