@@ -64,8 +64,8 @@ void bind_surface(py::module_& module) {
              "face_vertices: (sum of corners,) int32, or (F, 3) where face_offsets is None.\n"
              "triangles: (T, 3) int32, n - 2 for each face of n corners, in face order; None: made here.\n"
              "hidden_faces: ids, or a mask of F bools: faces that no band enters.\n"
-             "Raises ValueError naming the elements: indices out of range, positions that are not finite, faces with fewer than\n"
-             "three or with repeated vertices, triangles that are no triangulation of their faces.")
+             "Raises ValueError naming the elements: indices out of range, positions that are not finite or beyond 1e50, faces\n"
+             "with fewer than three or with repeated vertices, triangles that are no triangulation of their faces.")
         .def_property_readonly("vertex_count", &mrc::Surface::vertex_count)
         .def_property_readonly("face_count", &mrc::Surface::face_count)
         .def_property_readonly("edge_count", &mrc::Surface::edge_count, "Real edges and diagonals.")

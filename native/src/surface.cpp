@@ -51,6 +51,8 @@ void require_size(size_t size, const char* what) {
     }
 }
 
+constexpr double farthest = 1e50;
+
 std::vector<Vec3> copy_positions(std::span<const double> values) {
     if (values.size() % 3 != 0) {
         throw InvalidInput("positions has " + std::to_string(values.size()) + " numbers; every vertex needs three");
@@ -61,8 +63,13 @@ std::vector<Vec3> copy_positions(std::span<const double> values) {
     Complaints complaints;
     for (size_t i = 0; i < values.size(); i += 3) {
         positions.emplace_back(values[i], values[i + 1], values[i + 2]);
-        if (positions.back().allFinite()) continue;
-        complaints.add([&] { return name("vertex", static_cast<int64_t>(i / 3)) + " has a position that is not finite"; });
+        const Vec3& p = positions.back();
+        if ((p.array().abs() <= farthest).all()) continue;
+        complaints.add([&] {
+            const std::string where = name("vertex", static_cast<int64_t>(i / 3));
+            if (!p.allFinite()) return where + " has a position that is not finite";
+            return where + " has a coordinate beyond 1e50, whose powers are no numbers any more: scale the mesh down";
+        });
     }
     complaints.raise();
     return positions;

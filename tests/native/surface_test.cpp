@@ -738,6 +738,18 @@ TEST(BadInput, PositionsThatAreNotFinite) {
     }
 }
 
+TEST(BadInput, PositionsTooFarOutToComputeWith) {
+    for (const double bad : {1.1e50, -1e155, std::numeric_limits<double>::max()}) {
+        Mesh mesh = cube();
+        mesh.points[3].z() = bad;
+        expect_fault(mesh, {"vertex 3 has a coordinate beyond 1e50"});
+    }
+    Mesh mesh = cube();
+    for (Vec3& p : mesh.points) p *= 1e50;
+    const double radius = mesh.surface().average_radius(0);
+    EXPECT_NEAR(radius, 0.5e50, 1e36);
+}
+
 TEST(BadInput, NamesTheFirstFewAndCountsTheRest) {
     Mesh mesh = cube();
     for (int v = 1; v < 8; ++v) mesh.points[v].y() = NAN;

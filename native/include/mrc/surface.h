@@ -26,8 +26,8 @@ struct SurfaceArrays {
 /// *diagonal* where only the triangulation put it. Borders, edges of three faces or of disagreeing winding, and vertices with
 /// more than one fan are legal: they merely stop a band.
 ///
-/// @throws InvalidInput for indices out of range, positions that are not finite, faces with fewer than three or with repeated
-/// vertices, and triangles that are no triangulation of their faces. The message names the elements.
+/// @throws InvalidInput for indices out of range, positions that are not finite or beyond 1e50, faces with fewer than three or with
+/// repeated vertices, and triangles that are no triangulation of their faces. The message names the elements.
 class Surface {
   public:
     static constexpr int border = -1;     ///< twin of a half-edge with no other face

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "made_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <random>
+#include <set>
+
+namespace mrc {
+namespace {
+
+constexpr int most_faces = 200;
+
+enum class Shape { tube, torus, ball, plane, twisted, kMaxValue = twisted };
+
+/// Rows of vertices and the quads between them; row and column of the last quads lead back to the first where they wrap.
+struct Grid {
+    int rows, columns;
+    bool wrap_rows, wrap_columns, twist;
+
+    int vertex(int row, int column) const {
+        const int across = twist && column == columns ? rows - 1 - row : row;
+        return (across % rows) * columns + column % columns;
+    }
+};
+
+Vec3 place(Shape shape, double row, double column, double radius) {
+    const double u = 2.0 * std::numbers::pi * column, v = 2.0 * std::numbers::pi * row;
+    switch (shape) {
+        case Shape::tube:
+            return {radius * std::cos(u), radius * std::sin(u), 4.0 * row};
+        case Shape::torus:
+            return {(3.0 + radius * std::cos(v)) * std::cos(u), (3.0 + radius * std::cos(v)) * std::sin(u), radius * std::sin(v)};
+        case Shape::ball: {
+            const double latitude = std::numbers::pi * (0.05 + 0.9 * row);
+            return radius * Vec3(std::sin(latitude) * std::cos(u), std::sin(latitude) * std::sin(u), -std::cos(latitude));
+        }
+        case Shape::twisted:
+            return {(2.0 + (row - 0.5) * std::cos(0.5 * u)) * std::cos(u), (2.0 + (row - 0.5) * std::cos(0.5 * u)) * std::sin(u),
+                    (row - 0.5) * std::sin(0.5 * u)};
+        case Shape::plane:
+            break;
+    }
+    return {4.0 * column, 4.0 * row, radius};
+}
+
+MadeMesh grid_mesh(FuzzedDataProvider& data) {
+    const auto shape = data.ConsumeEnum<Shape>();
+    const bool wrap_columns = shape != Shape::plane, wrap_rows = shape == Shape::torus;
+    const int columns = data.ConsumeIntegralInRange(3, 16), rows = data.ConsumeIntegralInRange(2, 180 / columns);
+    const Grid grid{rows, columns, wrap_rows, wrap_columns, shape == Shape::twisted};
+    MadeMesh mesh;
+    std::mt19937 random(data.ConsumeIntegral<uint16_t>());
+    const double noise = data.ConsumeIntegralInRange(0, 40) * 0.01;
+    const double size = std::pow(10.0, data.ConsumeIntegralInRange(-49, 49));
+    std::uniform_real_distribution<double> jitter(-noise, noise);
+    for (int i = 0; i < rows; ++i) {
+        const double radius = 0.25 * data.ConsumeIntegralInRange(1, 8);
+        for (int j = 0; j < columns; ++j) {
+            const Vec3 p = place(shape, static_cast<double>(i) / rows, static_cast<double>(j) / columns, radius);
+            mesh.positions.push_back(size * (p + Vec3(jitter(random), jitter(random), jitter(random))));
+        }
+    }
+    for (int i = 0; i + (wrap_rows ? 0 : 1) < rows; ++i) {
+        for (int j = 0; j + (wrap_columns ? 0 : 1) < columns; ++j) {
+            mesh.faces.push_back({grid.vertex(i, j), grid.vertex(i, j + 1), grid.vertex(i + 1, j + 1), grid.vertex(i + 1, j)});
+        }
+    }
+    if (shape == Shape::ball) {  // its poles are polygons
+        for (const int row : {0, rows - 1}) {
+            std::vector<int>& pole = mesh.faces.emplace_back();
+            for (int j = 0; j < columns; ++j) pole.push_back(grid.vertex(row, row == 0 ? columns - 1 - j : j));
+        }
+    }
+    return mesh;
+}
+
+void cut_up(MadeMesh& mesh, int face) {
+    const std::vector<int> polygon = mesh.faces[face];
+    if (polygon.size() < 4) return;
+    mesh.faces[face] = {polygon[0], polygon[1], polygon[2]};
+    for (std::size_t i = 3; i < polygon.size(); ++i) mesh.faces.push_back({polygon[0], polygon[i - 1], polygon[i]});
+}
+
+/// What modelers, exporters and scanners do to meshes.
+void spoil(MadeMesh& mesh, FuzzedDataProvider& data) {
+    enum class Change { cut_up, cut_up_all, remove, flip, duplicate, hide, move_onto, lift, kMaxValue = lift };
+    const int face = data.ConsumeIntegralInRange(0, static_cast<int>(mesh.faces.size()) - 1);
+    const int vertex = data.ConsumeIntegralInRange(0, static_cast<int>(mesh.positions.size()) - 1);
+    switch (data.ConsumeEnum<Change>()) {
+        case Change::cut_up:
+            return cut_up(mesh, face);
+        case Change::cut_up_all:
+            for (int f = 0, count = static_cast<int>(mesh.faces.size()); f < count; ++f) cut_up(mesh, f);
+            return;
+        case Change::remove:
+            if (mesh.faces.size() > 1) mesh.faces.erase(mesh.faces.begin() + face);
+            return;
+        case Change::flip:
+            std::ranges::reverse(mesh.faces[face]);
+            return;
+        case Change::duplicate: {
+            const std::vector<int> copy = mesh.faces[face];
+            mesh.faces.push_back(copy);
+            return;
+        }
+        case Change::hide:
+            mesh.hidden.push_back(face);
+            return;
+        case Change::move_onto:
+            mesh.positions[vertex] = mesh.positions[mesh.faces[face][0]];
+            return;
+        case Change::lift:
+            mesh.positions[vertex] *= data.ConsumeFloatingPointInRange(0.0, 2.0);
+    }
+}
+
+using Step = std::pair<int, int>;
+
+std::set<Step> steps_of(const std::vector<int>& polygon) {
+    std::set<Step> steps;
+    for (std::size_t i = 0; i < polygon.size(); ++i) steps.emplace(polygon[i], polygon[(i + 1) % polygon.size()]);
+    return steps;
+}
+
+/// The first so many faces, by their numbers or by their way from a face.
+std::vector<int> some_faces(const MadeMesh& mesh, FuzzedDataProvider& data) {
+    const int total = static_cast<int>(mesh.faces.size());
+    const int count = data.ConsumeIntegralInRange(1, total);
+    std::vector<int> order;
+    if (data.ConsumeBool()) {
+        for (int f = 0; f < count; ++f) order.push_back(f);
+        return order;
+    }
+    std::set<int> seen{data.ConsumeIntegralInRange(0, total - 1)};
+    order.assign(seen.begin(), seen.end());
+    for (std::size_t i = 0; i < order.size() && static_cast<int>(order.size()) < count; ++i) {
+        const std::set<Step> here = steps_of(mesh.faces[order[i]]);
+        for (int f = 0; f < total && static_cast<int>(order.size()) < count; ++f) {
+            const auto beside = [&](const Step& step) { return here.contains({step.second, step.first}); };
+            if (!seen.contains(f) && std::ranges::any_of(steps_of(mesh.faces[f]), beside)) {
+                seen.insert(f);
+                order.push_back(f);
+            }
+        }
+    }
+    return order;
+}
+
+}  // namespace
+
+Surface MadeMesh::surface() const {
+    std::vector<double> points;
+    for (const Vec3& p : positions) points.insert(points.end(), p.begin(), p.end());
+    std::vector<int32_t> offsets{0}, vertices;
+    for (const std::vector<int>& face : faces) {
+        vertices.insert(vertices.end(), face.begin(), face.end());
+        offsets.push_back(static_cast<int32_t>(vertices.size()));
+    }
+    std::vector<int32_t> unseen;
+    for (const int face : hidden) {
+        if (face < static_cast<int>(faces.size())) unseen.push_back(face);
+    }
+    return Surface({points, offsets, vertices, {}, unseen});
+}
+
+MadeMesh made_mesh(FuzzedDataProvider& data) {
+    MadeMesh mesh = grid_mesh(data);
+    for (int i = data.ConsumeIntegralInRange(0, 12); i > 0; --i) spoil(mesh, data);
+    if (static_cast<int>(mesh.faces.size()) > most_faces) mesh.faces.resize(most_faces);
+    return mesh;
+}
+
+std::vector<std::vector<int>> made_loops(const MadeMesh& mesh, FuzzedDataProvider& data) {
+    std::set<Step> all;
+    for (const int face : some_faces(mesh, data)) {
+        const std::set<Step> steps = steps_of(mesh.faces[face]);
+        all.insert(steps.begin(), steps.end());
+    }
+    std::multimap<int, int> onward;
+    for (const auto& [from, to] : all) {
+        if (!all.contains({to, from})) onward.emplace(from, to);
+    }
+    std::vector<std::vector<int>> loops;
+    while (!onward.empty()) {
+        const int start = onward.begin()->first;
+        std::vector<int> loop;
+        for (auto step = onward.begin(); step != onward.end(); step = onward.find(loop.back() == start ? -1 : loop.back())) {
+            loop.push_back(step->second);
+            onward.erase(step);
+        }
+        loops.push_back(std::move(loop));
+    }
+    return loops;
+}
+
+}  // namespace mrc

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Contours of all kinds on spoilt meshes, with any options: a valid result, or an error.
+#include "checks.h"
+#include "made_mesh.h"
+
+#include <mrc/close.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+using mrc::Contour, mrc::Options, mrc::Surface, mrc::Task;
+
+template <class Value>
+std::optional<Value> maybe(FuzzedDataProvider& data, Value value) {
+    return data.ConsumeBool() ? std::optional<Value>(value) : std::nullopt;
+}
+
+double between(FuzzedDataProvider& data, double low, double high) { return data.ConsumeFloatingPointInRange(low, high); }
+
+Options made_options(FuzzedDataProvider& data) {
+    Options o;
+    o.width = maybe(data, data.ConsumeIntegralInRange(1, 8));
+    o.refinement = data.ConsumeIntegralInRange(0, 3);
+    o.iterations = data.ConsumeIntegralInRange(0, 3);
+    o.regular_iterations = data.ConsumeIntegralInRange(0, 2);
+    o.flow = data.PickValueInArray({mrc::FlowKind::gates, mrc::FlowKind::arc_length, mrc::FlowKind::harmonic});
+    o.ends = data.PickValueInArray({mrc::Ends::edges, mrc::Ends::vertices, mrc::Ends::border});
+    o.feature = data.PickValueInArray({mrc::Feature::valley, mrc::Feature::ridge});
+    if (data.ConsumeBool()) {
+        o.denominator = mrc::Denominator::arcs;
+        o.length_measure = mrc::LengthMeasure::edges;
+    }
+    o.length_bias = between(data, 0.0, 4.0);
+    o.length_floor = between(data, 0.0, 1.5);
+    o.anchor = between(data, 0.0, 3.0);
+    o.crease = between(data, 0.0, 2.0);
+    o.max_turn = between(data, 0.05, 3.1415926);
+    o.curvature_radius = between(data, 0.1, 4.0);
+    o.curvature_smoothing = between(data, 0.0, 3.0);
+    o.kappa0_factor = between(data, 0.01, 10.0);
+    o.feature_exponent = between(data, 0.1, 3.0);
+    o.direction_exponent = between(data, 0.1, 3.0);
+    o.band_distance = maybe(data, between(data, 0.01, 4.0));
+    o.feature_clamp = maybe(data, between(data, 0.01, 0.99));
+    o.min_salience = maybe(data, between(data, -1.0, 2.0));
+    o.region_weight = between(data, -3.0, 3.0);
+    o.threads = data.ConsumeIntegralInRange(1, 2);
+    return o;
+}
+
+std::array<int, 2> edge(FuzzedDataProvider& data, const mrc::MadeMesh& mesh) {
+    const std::vector<int>& face = mesh.faces[data.ConsumeIntegralInRange(0, static_cast<int>(mesh.faces.size()) - 1)];
+    const std::size_t corner = data.ConsumeIntegralInRange<std::size_t>(0, face.size() - 1);
+    return {face[corner], face[(corner + 1) % face.size()]};
+}
+
+mrc::Wishes made_wishes(FuzzedDataProvider& data, const mrc::MadeMesh& mesh, const std::vector<double>& density) {
+    mrc::Wishes wishes;
+    const int last = static_cast<int>(mesh.positions.size()) - 1;
+    const auto some = [&](auto add) {
+        for (int n = data.ConsumeBool() ? data.ConsumeIntegralInRange(0, 3) : 0; n > 0; --n) add();
+    };
+    some([&] { wishes.required_vertices.push_back(data.ConsumeIntegralInRange(0, last)); });
+    some([&] { wishes.required_edges.push_back(edge(data, mesh)); });
+    some([&] { wishes.barriers.push_back(edge(data, mesh)); });
+    some([&] {
+        wishes.attractors.push_back({data.ConsumeIntegralInRange(0, last), between(data, 1e-3, 20.0), between(data, -3.0, 3.0),
+                                     maybe(data, between(data, 1e-3, 10.0))});
+    });
+    if (data.ConsumeBool()) wishes.region_density = density;
+    return wishes;
+}
+
+/// Loops and chains; sometimes a walk that is none.
+std::vector<Contour> made_contours(FuzzedDataProvider& data, const mrc::MadeMesh& mesh) {
+    std::vector<Contour> contours;
+    for (std::vector<int>& loop : made_loops(mesh, data)) {
+        const bool closed = data.ConsumeIntegralInRange(0, 3) != 3;
+        if (!closed) {
+            loop.resize(data.ConsumeIntegralInRange<std::size_t>(std::min<std::size_t>(2, loop.size()), loop.size()));
+        } else if (data.ConsumeIntegralInRange(0, 15) == 0) {
+            loop.push_back(data.ConsumeIntegralInRange(0, static_cast<int>(mesh.positions.size()) - 1));
+        }
+        contours.push_back(mrc::vertex_contour(loop, closed));
+        if (contours.size() == 4) break;
+    }
+    return contours;
+}
+
+/// Leaves a search after so many calls; 0: never.
+mrc::Progress made_progress(int calls) {
+    if (calls == 0) return {};
+    return [calls, share = 0.0](double now) mutable {
+        mrc::require(now >= share && now <= 1.0, "progress goes on, up to 1");
+        share = now;
+        return --calls > 0;
+    };
+}
+
+void run(FuzzedDataProvider& data) {
+    const mrc::MadeMesh mesh = mrc::made_mesh(data);
+    const Surface surface = mesh.surface();
+    mrc::check_surface(surface);
+    std::vector<double> density(mesh.faces.size());
+    for (std::size_t f = 0; f < density.size(); ++f) density[f] = static_cast<double>(f % 5) - 2.0;
+    const Options options = made_options(data);
+    const mrc::Wishes wishes = made_wishes(data, mesh, density);
+    std::vector<Contour> contours = made_contours(data, mesh);
+    if (contours.empty()) return;
+    if (!contours[0].closed && data.ConsumeBool()) {
+        contours[0] = mrc::close_contour(surface, contours[0]);
+        mrc::check_contour(surface, contours[0]);
+    }
+    if (data.ConsumeBool()) contours.resize(1);
+    std::vector<Task> tasks;
+    for (const Contour& contour : contours) tasks.push_back({contour, tasks.empty() ? wishes : mrc::Wishes{}, std::nullopt});
+    const auto results = mrc::optimize_all(surface, tasks, options, made_progress(data.ConsumeIntegralInRange(0, 40)));
+    mrc::require(results.size() == tasks.size(), "each contour has its result");
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        mrc::check_result(surface, tasks[i].contour, options, tasks[i].wishes, results[i]);
+        for (std::size_t j = 0; j < i; ++j) {
+            if (results[i].status == mrc::Status::improved || results[j].status == mrc::Status::improved)
+                mrc::check_apart(results[i].contour, results[j].contour);
+        }
+    }
+    // What came out goes in again, across faces too.
+    const mrc::Result again = mrc::optimize(surface, results[0].contour, options, tasks[0].wishes);
+    mrc::check_result(surface, results[0].contour, options, tasks[0].wishes, again);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, std::size_t size) {
+    FuzzedDataProvider data(bytes, size);
+    try {
+        run(data);
+    } catch (const mrc::InvalidInput&) {  // which is the answer to bad input
+    }
+    return 0;
+}
