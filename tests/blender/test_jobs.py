@@ -94,11 +94,11 @@ class Contour(operators.ContourOutput, operators.SearchInEditMode):
 
 
 class Seams(network_operators.NetworkOperator):
-    selected_only = False
+    selected_only, merge = False, 0.0
 
 
 class Segmentation(network_operators.NetworkOperator):
-    source, attribute = "MATERIAL", ""
+    source, attribute, merge = "MATERIAL", "", 0.0
 
 
 REAL = {
