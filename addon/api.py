@@ -11,7 +11,7 @@ its vertex groups, attributes and marked edges. Bad input raises a ValueError th
 
 import bpy
 
-from . import constraints, mesh_access, native, network_cutting, networks, parameters, seams, segmentation
+from . import constraints, jobs, mesh_access, native, network_cutting, networks, parameters, seams, segmentation
 from .constraint_arrays import native_keywords
 
 _kept = {}  # mesh name -> (MeshArrays, Surface), of the meshes of the last call
@@ -29,11 +29,15 @@ def optimize_contour(obj, vertices, closed=True, close=False, **settings):
     return optimize_on(surface_of(obj), vertices, closed=closed, close=close, constraints=asked, **settings)
 
 
-def optimize_on(surface, vertices, closed=True, close=False, **settings):
+def optimize_on(surface, vertices, closed=True, close=False, progress=None, **settings):
     """The same on a native surface."""
     if close:
-        vertices, closed = native.module().close_contour(surface, vertices), True
-    return optimize_all_on(surface, [vertices], closed=closed, **settings)[0]
+        closing, progress = jobs.share_of(progress, 0, 2), jobs.share_of(progress, 1, 2)
+        loop = native.module().close_contour(surface, vertices, progress=closing)
+        if loop is None:  # cancelled: so is the search
+            return optimize_all_on(surface, [vertices], closed=False, progress=lambda _: False, **settings)[0]
+        vertices, closed = loop, True
+    return optimize_all_on(surface, [vertices], closed=closed, progress=progress, **settings)[0]
 
 
 def optimize_all_on(surface, contours, closed=True, progress=None, constraints=None, **settings):

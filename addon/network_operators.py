@@ -30,7 +30,7 @@ def optimize_tasks(tasks, settings, progress=None):
                 task.surface, task.network, jobs.share_of(progress, i, len(tasks)), **settings
             )
         except ValueError as error:
-            task.problem = str(error)
+            task.problem = report.problem(error)
 
 
 class NetworkOperator(NetworkSettings, CutSettings, SearchInEditMode):
@@ -81,7 +81,7 @@ class NetworkOperator(NetworkSettings, CutSettings, SearchInEditMode):
             if task.network.movable:
                 task.surface = api.surface_of(obj, beside=objects)
         except ValueError as error:
-            task.problem = str(error)
+            task.problem = report.problem(error)
         return task
 
     def _outcomes(self, task):

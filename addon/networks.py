@@ -5,14 +5,13 @@ A network falls into chains between its junctions, and closed loops. All of them
 that they bound before and after tell whether every region is still there, in one piece.
 """
 
-import re
 from collections import defaultdict
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
-from . import contours, native, parameters
+from . import contours, native, parameters, report
 
 
 @dataclass(frozen=True)
@@ -411,7 +410,7 @@ def _search(surface, chains, options, progress):
         try:
             found = _search_all(surface, chains, given, list(problems), options, progress) if given else []
         except ValueError as error:
-            problems |= _refused(surface, chains, given, str(error))
+            problems |= _refused(surface, chains, given, error)
         else:
             results = dict(zip(given, found))
             return [results.get(i) for i in range(len(chains))], problems
@@ -430,11 +429,11 @@ def _search_all(surface, chains, given, left_out, options, progress):
     )
 
 
-def _refused(surface, chains, given, message):
+def _refused(surface, chains, given, error):
     """Those of the given chains that are no contours by themselves; or else the one that the message names."""
     problems = {i: native.contour_problem(surface, chains[i].vertices, chains[i].closed) for i in given}
     problems = {i: problem for i, problem in problems.items() if problem}
-    named = re.match(r"contour (\d+): (.*)", message, re.DOTALL)
     if problems:
         return problems
-    return {given[int(named[1])]: named[2]} if named else dict.fromkeys(given, message)
+    place = native.told_apart(error)[1]
+    return dict.fromkeys(given if place is None else [given[place]], report.problem(error))
