@@ -192,6 +192,18 @@ def test_across_faces_the_mean_ratio_is_not_above_that_along_edges():
 # ---- random labels and seams
 
 
+def new_vertices(obj, before):
+    """The vertices that were not there before a cut."""
+    known = {place for place, *_ in before["vertices"]}
+    return [vertex for vertex in bmesh.from_edit_mesh(obj.data).verts if tuple(vertex.co) not in known]
+
+
+def divides(vertex, label):
+    """Whether a vertex lies between regions, or where the mesh shown ends and a border may run along it."""
+    ends = vertex.is_boundary or any(face.hide for face in vertex.link_faces)
+    return ends or len(set(map(label, vertex.link_faces))) > 1
+
+
 @pytest.mark.parametrize("seed", range(40))
 def test_no_label_is_lost_and_no_region_torn(seed):
     rng = np.random.default_rng(seed)
@@ -207,10 +219,16 @@ def test_no_label_is_lost_and_no_region_torn(seed):
     hidden = [i for i, face in enumerate(bmesh.from_edit_mesh(obj.data).faces) if face.hide]
     held = points_and_label(obj, labels, hidden)
     settings = {"width": int(rng.integers(1, 6)), "merge": float(rng.choice([0, 0.1, 0.5]))}
-    ran = segment(source, refinement=int(rng.integers(1, 4)), **settings)
+    settings = REFINED | settings | {"refinement": int(rng.integers(1, 4))}
+    results = api.optimize_segmentation(obj, **where(source), **settings)
+    ran = segment(source, **settings)
     after, new = everything(obj), get_labels(obj, source)
     assert (after != before) == (ran == {"FINISHED"})
     assert pieces(obj, new) == regions
+    divided = {tuple(v.co) for v in bmesh.from_edit_mesh(obj.data).verts if divides(v, lambda face: new[face.index])}
+    for result in results:  # what counts as moved lies between regions now
+        assert {before["vertices"][vertex][0] for vertex in result.vertices[result.vertices >= 0]} <= divided
+    assert {tuple(vertex.co) for vertex in new_vertices(obj, before)} <= divided  # nothing else is cut
     faces = bmesh.from_edit_mesh(obj.data).faces
     assert points_and_label(obj, new, [i for i, face in enumerate(faces) if face.hide]) == held
     assert is_valid(obj)
@@ -233,6 +251,7 @@ def test_islands_keep_their_number(seed):
     ran = bpy.ops.mesh.optimize_seams(**(REFINED | settings))
     assert (everything(obj) != before) == (ran == {"FINISHED"})
     assert islands(obj) == count
+    assert all(any(edge.seam for edge in vertex.link_edges) for vertex in new_vertices(obj, before))
     assert is_valid(obj)
 
 
