@@ -137,9 +137,7 @@ class MESH_OT_adjust_contour(ContourSettings, ContourConstraints, ContourOutput,
             try:
                 preview.search(self._state)
             except ValueError as error:
-                self._problem = report.unsearchable(
-                    error, preview.pins_outside(self._state), native.module().Infeasible
-                )
+                self._problem = report.unsearchable(error, preview.pins_outside(self._state))
 
     def _step(self, state):
         """Goes on with other settings or pins; one command changes one thing, and the output needs no search."""

@@ -9,7 +9,9 @@ The settings are those of `parameters.SETTINGS`, for a mesh object also those of
 its vertex groups, attributes and marked edges. Bad input raises a ValueError that names the elements.
 """
 
-from . import constraints, mesh_access, native, networks, parameters, seams, segmentation
+import bpy
+
+from . import constraints, jobs, mesh_access, native, network_cutting, networks, parameters, seams, segmentation
 from .constraint_arrays import native_keywords
 
 _kept = {}  # mesh name -> (MeshArrays, Surface), of the meshes of the last call
@@ -27,11 +29,15 @@ def optimize_contour(obj, vertices, closed=True, close=False, **settings):
     return optimize_on(surface_of(obj), vertices, closed=closed, close=close, constraints=asked, **settings)
 
 
-def optimize_on(surface, vertices, closed=True, close=False, **settings):
+def optimize_on(surface, vertices, closed=True, close=False, progress=None, **settings):
     """The same on a native surface."""
     if close:
-        vertices, closed = native.module().close_contour(surface, vertices), True
-    return optimize_all_on(surface, [vertices], closed=closed, **settings)[0]
+        closing, progress = jobs.share_of(progress, 0, 2), jobs.share_of(progress, 1, 2)
+        loop = native.module().close_contour(surface, vertices, progress=closing)
+        if loop is None:  # cancelled: so is the search
+            return optimize_all_on(surface, [vertices], closed=False, progress=lambda _: False, **settings)[0]
+        vertices, closed = loop, True
+    return optimize_all_on(surface, [vertices], closed=closed, progress=progress, **settings)[0]
 
 
 def optimize_all_on(surface, contours, closed=True, progress=None, constraints=None, **settings):
@@ -50,30 +56,33 @@ def problem_on(surface, vertices, closed=True, barriers=()):
     return native.contour_problem(surface, vertices, closed, barriers)
 
 
-def optimize_seams(obj, selected_only=False, apply=False, **settings):
+def optimize_seams(obj, selected_only=False, apply=False, merge=0.0, **settings):
     """Optimizes all seams of a mesh, or those among its selected edges; with apply they move there.
 
+    Those across faces, with the setting `refinement`, are cut into the mesh; `merge` is that of Optimize Contour.
     The settings are those of `parameters.NETWORK`. Returns the native results, one for each chain between junctions and
     each closed loop that could move.
     """
     mesh_access.synchronize(obj)
-    plan = _plan(obj, seams.read_network(obj, selected_only), settings)
+    plan = _plan(obj, seams.read_network(obj, selected_only), merge, settings)
     if apply and plan.changed:
-        seams.write(obj, plan)
+        seams.write(obj, network_cutting.cut(obj, plan, merge))
+        network_cutting.restore_normals(bpy.context, obj)
     return list(plan.taken_results().values())
 
 
-def optimize_segmentation(obj, source="FACE_SETS", attribute="", apply=False, **settings):
+def optimize_segmentation(obj, source="FACE_SETS", attribute="", apply=False, merge=0.0, **settings):
     """Optimizes the borders between the regions of a labelling; with apply the labels move with them.
 
     source: FACE_SETS, MATERIAL or ATTRIBUTE; an attribute's name alone is enough.
-    Returns the native results, as optimize_seams does, and takes the same settings.
+    Returns the native results, as optimize_seams does, takes the same settings, and cuts what runs across faces.
     """
     mesh_access.synchronize(obj)
     labelling = segmentation.read_labelling(obj, "ATTRIBUTE" if attribute else source, attribute)
-    plan = _plan(obj, segmentation.read_network(obj, labelling), settings)
+    plan = _plan(obj, segmentation.read_network(obj, labelling), merge, settings)
     if apply and plan.changed:
-        segmentation.write(obj, labelling, plan)
+        segmentation.write(obj, labelling, network_cutting.cut(obj, plan, merge))
+        network_cutting.restore_normals(bpy.context, obj)
     return list(plan.taken_results().values())
 
 
@@ -123,8 +132,9 @@ def forget():
     _kept.clear()
 
 
-def _plan(obj, network, settings):
-    return networks.optimize(surface_of(obj) if network.movable else None, network, **settings)
+def _plan(obj, network, merge, settings):
+    plan = networks.optimize(surface_of(obj) if network.movable else None, network, **settings)
+    return network_cutting.settled(obj, plan, merge)
 
 
 def _forget_others(names):

@@ -26,6 +26,11 @@ def keep(obj, bm, faces):
     return True
 
 
+def are_noted(mesh):
+    """Whether there are normals on a mesh that were noted and not yet set again."""
+    return _NAME in mesh.attributes
+
+
 def restore(context):
     """Sets the normals that were noted, on all meshes that have some; leaves Edit Mode for it and comes back."""
     editing = context.objects_in_mode[:]
@@ -34,8 +39,8 @@ def restore(context):
         obj.select_set(obj in editing)
     bpy.ops.object.mode_set(mode="OBJECT")
     for mesh in bpy.data.meshes:
-        if _NAME in mesh.attributes:
-            _set(mesh)
+        if are_noted(mesh):
+            set_noted(mesh)
     for obj in editing:
         obj.select_set(True)
     bpy.ops.object.mode_set(mode="EDIT")
@@ -43,7 +48,8 @@ def restore(context):
         obj.select_set(obj in selected)
 
 
-def _set(mesh):
+def set_noted(mesh):
+    """Sets those of a mesh outside Edit Mode."""
     noted = np.empty(3 * len(mesh.loops), dtype=np.float32)
     mesh.attributes[_NAME].data.foreach_get("vector", noted)
     noted = noted.reshape(-1, 3)

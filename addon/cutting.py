@@ -15,6 +15,14 @@ _FLAT = 1e-6  # of the perimeter squared: a piece of a face with less area than 
 _STRAIGHT = 1e-5  # of a segment: a bend smaller than this is none
 
 
+class Crossing(ValueError):
+    """Two contours cross each other, which cannot be cut at once."""
+
+    def __init__(self, face):
+        self.face = face  # its id before the cut
+        super().__init__(f"contours cross each other in face {face}: cut them one after the other")
+
+
 def cut_contours(bm, contours, merge=0.0):
     """Cuts native results, or contours like them, into a mesh; gives for each the ids of its vertices in order.
 
@@ -24,15 +32,21 @@ def cut_contours(bm, contours, merge=0.0):
     Points closer to a vertex than `merge` of their edge are moved onto it, so that the contour gives way by as much and
     leaves no slivers.
     """
+    return cut_and_follow(bm, contours, [], merge)[0]
+
+
+def cut_and_follow(bm, contours, edge_paths, merge=0.0):
+    """The same; and for paths along edges, as lists of vertex ids, the ids of all vertices along them after the cut."""
     closed = [contour.closed for contour in contours]
     paths = [without_stops(stations(contour), contour.closed) for contour in contours]
     paths = merge_stations(paths, closed, merge, _edges_of_hidden_faces(bm, paths), _border_vertices(bm, paths))
     if not _leaves_edges(bm, paths, closed):
-        return [np.array([station.a for station in path]) for path in paths]
-    knife = _Knife(bm, paths)
+        return [np.array([station.a for station in path]) for path in paths], [np.array(path) for path in edge_paths]
+    knife = _Knife(bm, paths, {vertex for path in edge_paths for vertex in path})
+    followed = [knife.follow(path) for path in edge_paths]
     cut = [knife.cut(path, is_closed) for path, is_closed in zip(paths, closed)]
     knife.finish()
-    return [np.array([vertex.index for vertex in vertices]) for vertices in cut]
+    return [_ids(vertices) for vertices in cut], [_ids(vertices) for vertices in followed]
 
 
 def cuts_faces(bm, contours):
@@ -45,17 +59,22 @@ def faces_cut(contours):
     return np.unique(np.concatenate([np.asarray(contour.segment_faces) for contour in contours]))
 
 
+def _ids(vertices):
+    return np.array([vertex.index for vertex in vertices], dtype=np.int32)
+
+
 class _Knife:
     """What the mesh was before the first cut, and what its elements have become."""
 
-    def __init__(self, bm, paths):
+    def __init__(self, bm, paths, followed=frozenset()):
         self.bm = bm
         for sequence in (bm.verts, bm.edges, bm.faces):
             sequence.index_update()
             sequence.ensure_lookup_table()
         all_stations = [station for path in paths for station in path]
         ids = {station.face for station in all_stations}
-        self.given = {vertex: bm.verts[vertex] for station in all_stations for vertex in (station.a, station.b)}
+        known = {vertex for station in all_stations for vertex in (station.a, station.b)} | followed
+        self.given = {vertex: bm.verts[vertex] for vertex in known}
         self.pieces = {face: [bm.faces[face]] for face in ids}  # of each face
         self.sides = {face: {_pair(edge.verts) for edge in bm.faces[face].edges} for face in ids}
         self.vertices = {}  # by the place of their station
@@ -74,6 +93,14 @@ class _Knife:
             vertices += self._connect(vertices[-1], self._vertex(following), bends, station.face)
             bends = []
         return vertices[:-1] if closed else vertices
+
+    def follow(self, path):
+        """The vertices along a path of old edges: those that it had, and those that were put between them."""
+        between = defaultdict(list)
+        for a, b, t in sorted(self.vertices):
+            between[a, b].append(self.vertices[a, b, t])
+            between[b, a].insert(0, self.vertices[a, b, t])
+        return [self.given[path[0]]] + [v for a, b in pairwise(path) for v in (*between.get((a, b), ()), self.given[b])]
 
     def finish(self):
         """Ids and normals of what is new."""
@@ -143,7 +170,7 @@ class _Knife:
         """The piece of a face that has both vertices."""
         found = [piece for piece in self.pieces[face_id] if start in piece.verts and end in piece.verts]
         if not found:
-            raise ValueError(f"contours cross each other in face {face_id}: cut them one after the other")
+            raise Crossing(face_id)
         return found[0]
 
 

@@ -2,6 +2,7 @@
 """Finds the compiled module `mrcontour`, or says in plain words why it cannot be used. Needs no Blender."""
 
 import importlib
+import re
 import sys
 from pathlib import Path
 
@@ -44,6 +45,12 @@ def contour_problem(surface, vertices, closed=True, barriers=()):
     except ValueError as error:
         return str(error)
     return ""
+
+
+def told_apart(error):
+    """What a native error says, and of which of several contours, by its place in the list; None where of none."""
+    named = re.match(r"contour (\d+): (.*)", str(error), re.DOTALL)
+    return (named[2], int(named[1])) if named else (str(error), None)
 
 
 def _import():

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
-from . import api, jobs, mesh_access, networks, outputs, panels, report, seams, segmentation
-from .operators import NetworkSettings, SearchInEditMode
+from . import api, jobs, mesh_access, network_cutting, networks, outputs, panels, report, seams, segmentation
+from .operators import CutSettings, NetworkSettings, SearchInEditMode
 
 
 @dataclass
@@ -30,10 +30,10 @@ def optimize_tasks(tasks, settings, progress=None):
                 task.surface, task.network, jobs.share_of(progress, i, len(tasks)), **settings
             )
         except ValueError as error:
-            task.problem = str(error)
+            task.problem = report.problem(error)
 
 
-class NetworkOperator(NetworkSettings, SearchInEditMode):
+class NetworkOperator(NetworkSettings, CutSettings, SearchInEditMode):
     """What both have in common."""
 
     def read(self, context):
@@ -45,6 +45,8 @@ class NetworkOperator(NetworkSettings, SearchInEditMode):
         return lambda progress: optimize_tasks(sound, settings, progress)
 
     def apply(self, context, tasks):
+        for task in tasks:
+            task.plan = task.plan and network_cutting.settled(task.obj, task.plan, self.merge)
         outcomes = [outcome for task in tasks for outcome in self._outcomes(task)]
         if not outcomes:
             return self.give_up(context, "WARNING", self.nothing)
@@ -54,8 +56,10 @@ class NetworkOperator(NetworkSettings, SearchInEditMode):
         if not moved:
             return self.give_up(context, level, message, outcomes)
         for task in moved:
-            self._write(task)
+            self._write(task, network_cutting.cut(task.obj, task.plan, self.merge))
         self._written(context)
+        for task in moved:
+            network_cutting.restore_normals(context, task.obj)
         return self.tell(context, level, message, outcomes)
 
     def surfaces(self, tasks):
@@ -77,7 +81,7 @@ class NetworkOperator(NetworkSettings, SearchInEditMode):
             if task.network.movable:
                 task.surface = api.surface_of(obj, beside=objects)
         except ValueError as error:
-            task.problem = str(error)
+            task.problem = report.problem(error)
         return task
 
     def _outcomes(self, task):
@@ -108,8 +112,8 @@ Where seams meet they stay together, and every island stays one island"""
     def _chain_outcomes(self, task):
         return seams.outcomes(task.obj.name, task.plan)
 
-    def _write(self, task):
-        seams.write(task.obj, task.plan, selection=task.about)
+    def _write(self, task, plan):
+        seams.write(task.obj, plan, selection=task.about)
 
     def _written(self, context):
         outputs.unwrap_live(context, [obj.data for obj in context.objects_in_mode_unique_data])
@@ -146,8 +150,8 @@ Where three regions meet they stay together, and no region is lost"""
     def _chain_outcomes(self, task):
         return segmentation.outcomes(task.obj.name, task.about, task.plan)
 
-    def _write(self, task):
-        segmentation.write(task.obj, task.about, task.plan)
+    def _write(self, task, plan):
+        segmentation.write(task.obj, task.about, plan)
 
     def _written(self, context):
         """Nothing follows from labels."""

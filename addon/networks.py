@@ -5,14 +5,13 @@ A network falls into chains between its junctions, and closed loops. All of them
 that they bound before and after tell whether every region is still there, in one piece.
 """
 
-import re
 from collections import defaultdict
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
-from . import contours, native, parameters
+from . import contours, native, parameters, report
 
 
 @dataclass(frozen=True)
@@ -41,6 +40,10 @@ class Topology:
         keys, order = self._sorted_keys
         edges = order[np.searchsorted(keys, self._key(pairs))]
         return edges, self.edges[edges, 0] == np.asarray(pairs)[:, 0]
+
+    def has(self, pairs):
+        """Whether edges join all these pairs of vertices."""
+        return bool(np.isin(self._key(pairs), self._sorted_keys[0]).all())
 
     @cached_property
     def _sorted_keys(self):
@@ -302,13 +305,17 @@ def _repeated(values):
 
 @dataclass(frozen=True)
 class Plan:
-    """What became of a network; nothing is written yet."""
+    """What became of a network; nothing is written yet.
+
+    Contours across faces are settled once they are cut into the mesh, where they run along edges: see `settle_cut`.
+    """
 
     chains: list
     results: list  # for each chain its native result; None where there is none
     problems: dict  # chain -> why it cannot be optimized, in words
-    settlement: Settlement
+    paths: list  # for each chain its new vertices, -1 where it crosses an edge; None where it stays
     topology: Topology
+    settlement: Settlement | None = None
 
     @property
     def changed(self):
@@ -327,15 +334,26 @@ class Plan:
         """(n, 2) vertex pairs of the chains that move."""
         return self._edges([chain.vertices for chain in self.chains])
 
+    def moved(self):
+        """The chains with a new path, by their numbers; once settled, those that take it."""
+        return [i for i, path in enumerate(self.paths) if path is not None and self._takes(i)]
+
+    def _takes(self, i):
+        return self.settlement is None or self.settlement.taken[i]
+
+    @property
+    def across_faces(self):
+        """Whether a new path leaves the edges of the mesh."""
+        return any(_leaves_edges(self.topology, self.paths[i], self.chains[i].closed) for i in self.moved())
+
     def new_edges(self):
         """(n, 2) vertex pairs where they move to, without what lies on the border of the mesh."""
-        pairs = self._edges([getattr(result, "vertices", None) for result in self.results])
+        pairs = self._edges(self.paths)
         edges, _ = self.topology.find(pairs)
         return pairs[self.topology.inner[edges] | self.topology.hidden[edges]]
 
     def _edges(self, paths):
-        taken = [i for i, taken in enumerate(self.settlement.taken) if taken]
-        pairs = [contours.contour_edges(paths[i], self.chains[i].closed) for i in taken]
+        pairs = [contours.contour_edges(paths[i], self.chains[i].closed) for i in self.moved()]
         return np.concatenate(pairs) if pairs else np.empty((0, 2), dtype=np.int32)
 
 
@@ -348,15 +366,34 @@ def optimize(surface, network, progress=None, **settings):
     options = native.module().Options(**parameters.network_options(**settings))
     topology, marked, chains = network.topology, network.marked, network.chains
     if not network.movable:
-        return Plan(chains, [None] * len(chains), {}, _all_stay(network), topology)
+        nothing = [None] * len(chains)
+        return Plan(chains, nothing, {}, nothing, topology, _all_stay(network))
     results, problems = _search(surface, chains, options, progress)
     paths = [_new_path(chain, result) for chain, result in zip(chains, results)]
-    return Plan(chains, results, problems, settle(topology, marked, chains, paths), topology)
+    plan = Plan(chains, results, problems, paths, topology)
+    return plan if plan.across_faces else replace(plan, settlement=settle(topology, marked, chains, paths))
+
+
+def settle_cut(plan, topology, given, paths):
+    """A plan for the mesh with contours cut into it, in which they run along edges.
+
+    given: the vertices of each chain there; paths: those of each contour, None for those that were not cut.
+    """
+    chains = [replace(chain, vertices=vertices) for chain, vertices in zip(plan.chains, given)]
+    marked = np.zeros(len(topology.edges), dtype=bool)
+    for chain in chains:
+        marked[topology.find(contours.contour_edges(chain.vertices, chain.closed))[0]] = True
+    settlement = settle(topology, marked, chains, paths)
+    return replace(plan, chains=chains, paths=paths, topology=topology, settlement=settlement)
 
 
 def _all_stay(network):
     before = regions(network.topology, network.marked)
     return Settlement([False] * len(network.chains), {}, before, before)
+
+
+def _leaves_edges(topology, path, closed):
+    return bool(np.any(path < 0)) or not topology.has(contours.contour_edges(path, closed))
 
 
 def _new_path(chain, result):
@@ -373,7 +410,7 @@ def _search(surface, chains, options, progress):
         try:
             found = _search_all(surface, chains, given, list(problems), options, progress) if given else []
         except ValueError as error:
-            problems |= _refused(surface, chains, given, str(error))
+            problems |= _refused(surface, chains, given, error)
         else:
             results = dict(zip(given, found))
             return [results.get(i) for i in range(len(chains))], problems
@@ -392,11 +429,11 @@ def _search_all(surface, chains, given, left_out, options, progress):
     )
 
 
-def _refused(surface, chains, given, message):
+def _refused(surface, chains, given, error):
     """Those of the given chains that are no contours by themselves; or else the one that the message names."""
     problems = {i: native.contour_problem(surface, chains[i].vertices, chains[i].closed) for i in given}
     problems = {i: problem for i, problem in problems.items() if problem}
-    named = re.match(r"contour (\d+): (.*)", message, re.DOTALL)
     if problems:
         return problems
-    return {given[int(named[1])]: named[2]} if named else dict.fromkeys(given, message)
+    place = native.told_apart(error)[1]
+    return dict.fromkeys(given if place is None else [given[place]], report.problem(error))

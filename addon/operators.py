@@ -11,6 +11,8 @@ from .parameters import CONSTRAINTS, SETTINGS
 class NetworkSettings:
     """The properties of the settings table that every operator that optimizes has."""
 
+    refinement: IntProperty(**SETTINGS["refinement"])
+    regular_iterations: IntProperty(**SETTINGS["regular_iterations"])
     width: IntProperty(**SETTINGS["width"])
     whole_surface: BoolProperty(**SETTINGS["whole_surface"])
     reach: FloatProperty(**SETTINGS["reach"])
@@ -31,8 +33,6 @@ class NetworkSettings:
 class ContourSettings(NetworkSettings):
     """All of them, for the operators that optimize contours by themselves."""
 
-    refinement: IntProperty(**SETTINGS["refinement"])
-    regular_iterations: IntProperty(**SETTINGS["regular_iterations"])
     ends: EnumProperty(**SETTINGS["ends"])
     close: BoolProperty(
         name="Close Chains",
@@ -59,7 +59,20 @@ class ContourConstraints:
         return {name: getattr(self, name) for name in CONSTRAINTS}
 
 
-class ContourOutput:
+class CutSettings:
+    """The property that says how refined contours are cut, for every operator that cuts."""
+
+    merge: FloatProperty(
+        name="Merge",
+        description="Points of a refined contour closer to a vertex than this share of their edge are moved onto it, "
+        "so that the cut leaves no slivers; the contour gives way by as much. 0: cut where it was found",
+        default=0.0,
+        min=0.0,
+        max=0.5,
+    )
+
+
+class ContourOutput(CutSettings):
     """The properties that say what becomes of a contour, for every operator that outputs one."""
 
     output: EnumProperty(
@@ -84,14 +97,6 @@ class ContourOutput:
         name="Fill Holes",
         description="Close both rims of a ripped or separated loop with a face each",
         default=False,
-    )
-    merge: FloatProperty(
-        name="Merge",
-        description="Points of a refined contour closer to a vertex than this share of their edge are moved onto it, "
-        "so that the cut leaves no slivers; the contour gives way by as much. 0: cut where it was found",
-        default=0.0,
-        min=0.0,
-        max=0.5,
     )
 
     def wish(self, context):

@@ -226,7 +226,7 @@ def _fill(numbers, outcome):
     numbers.ratio = outcome.result.ratio
     numbers.salience = report.salience(outcome.result)
     numbers.length = report.length(outcome.result)
-    numbers.reason = outcome.result.reason
+    numbers.reason = report.reason(outcome.result)
     numbers.faces = outcome.result.statistics["faces"]
     numbers.milliseconds = report.milliseconds(outcome.result)
 

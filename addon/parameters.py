@@ -128,8 +128,8 @@ SETTINGS = {
     },
 }
 
-# Networks run along edges, since what they bound are whole faces, and where their ends may go is settled.
-NETWORK = tuple(name for name in SETTINGS if name not in ("refinement", "regular_iterations", "ends"))
+# Where the ends of a network's chains may go is settled: junctions stay, ends on the border slide along it.
+NETWORK = tuple(name for name in SETTINGS if name != "ends")
 
 _MARKS = (
     ("SEAM", "Seam", "Edges marked as UV seams"),
@@ -278,7 +278,7 @@ def native_options(**settings):
 def network_options(**settings):
     """The same for networks, which take the settings of NETWORK."""
     _refuse_unknown(settings, NETWORK)
-    return native_options(refinement=0, ends="BORDER", **settings)
+    return native_options(ends="BORDER", **settings)
 
 
 def _refuse_unknown(settings, known):

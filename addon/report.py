@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from . import native
 from .contours import contour_edges
 
 NOTHING_SELECTED = (
@@ -21,6 +22,23 @@ _SALIENCES = (  # from this salience on, in words
     (0.25, "hardly concave"),
     (-np.inf, "nothing concave here"),
 )
+# What the native module cannot do, by its errors' classes, and why it returned the given contour, by its codes: in the
+# words of the panel, with what to do.
+_PROBLEMS = {
+    "TooLarge": "the search would need more memory than there is: lower Refinement or Width, or clear Whole Surface",
+    "Infeasible": "no contour in the band passes all required vertices: raise Width, Reach or Sharpest Turn, or take "
+    "some vertices out of the group",
+}
+_REASONS = {
+    "already_best": "it is already the best nearby: raise Width or Reach to look farther",
+    "not_salient": "there is nothing concave to follow here: lower Least Salience to move it all the same",
+    "no_room": "there are no faces around it to search: select fewer contours, or subdivide the mesh",
+    "against_flow": "no way in the band leads along it: raise Width or Sharpest Turn",
+    "no_neighbour": "no loop of edges beside it is free to search from: move it off borders and from itself",
+    "shared_faces": "other contours cross the same faces: optimize one at a time",
+    "none_refined": "no better contour was found across faces: set Refinement to 0, or raise it",
+    "cancelled": "cancelled",
+}
 _NAMED = 3  # of several alike, only so many are named
 
 
@@ -72,14 +90,28 @@ def meets_another(vertices):
     )
 
 
-def unsearchable(error, pins_outside, infeasible):
-    """Why nothing could be searched for with the pins there are; `infeasible` is the native error's class."""
+def problem(error):
+    """What an error says to the user: the native module's in the panel's words, without the places in its lists."""
+    return _PROBLEMS.get(type(error).__name__) or native.told_apart(error)[0]
+
+
+def reason(result):
+    """Why the given contour was returned; empty where it was not."""
+    if not result.reason_code:
+        return ""
+    others = len(result.held_back_by)
+    beside = "1 other contour" if others == 1 else f"{others} other contours"
+    return _REASONS[result.reason_code] + (f"; {beside} beside it kept the search back" if others else "")
+
+
+def unsearchable(error, pins_outside):
+    """Why nothing could be searched for with the pins there are."""
     if pins_outside:
         pins = "1 pinned vertex lies" if pins_outside == 1 else f"{pins_outside} pinned vertices lie"
         return f"{pins} outside the band: widen it (wheel), or unpin (X)"
-    if isinstance(error, infeasible):
+    if type(error).__name__ == "Infeasible":
         return "No contour in the band passes all pinned vertices: click one to unpin it, or widen the band (wheel)"
-    return str(error)
+    return problem(error)
 
 
 def inseparable(outcome):
@@ -189,7 +221,7 @@ def _statuses(results):
     parts = [f"{_counted(improved)} improved"] if improved else []
     for status in sorted({result.status for result in others}):
         alike = [result for result in others if result.status == status]
-        reasons = list(dict.fromkeys(result.reason for result in alike if result.reason))
+        reasons = [why for why in dict.fromkeys(map(reason, alike)) if why]
         count = len(alike) if parts else _counted(len(alike))
         parts.append(f"{count} {status}" + (f" ({shortened(reasons, '; ')})" if reasons else ""))
     return ", ".join(parts)

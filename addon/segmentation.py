@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The borders between the regions of a labelling as a network of contours, and back to labels."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -37,8 +37,7 @@ def read_labelling(obj, source, attribute=""):
 def read_network(obj, labelling):
     """The borders between a synchronized mesh's regions.
 
-    A region is one connected piece of one label. Contours run along edges, since labels belong to whole faces. Those
-    across faces would have to be cut into the mesh first, and the labels read again.
+    A region is one connected piece of one label.
     """
     topology = networks.make_topology(**vars(mesh_access.read_edge_arrays(obj.data)))
     return networks.make_network(topology, networks.label_borders(topology, labelling.labels))
@@ -50,7 +49,9 @@ def new_labels(labelling, plan):
 
 
 def write(obj, labelling, plan):
-    """Labels the faces anew."""
+    """Labels the faces anew; where contours were cut in, the pieces of a face come with the label of the whole."""
+    if len(labelling.labels) != plan.topology.face_count:
+        labelling = replace(labelling, labels=mesh_access.read_labels(obj.data, labelling.attribute))
     labels = new_labels(labelling, plan)
     changed = np.flatnonzero(labels != labelling.labels)
     mesh_access.write_labels(obj.data, labelling.attribute, changed, labels[changed])

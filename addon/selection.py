@@ -42,7 +42,7 @@ class Part:
     def fail(self, error):
         """Why nothing can be done with any of the contours that could be handed to the search."""
         for outcome in self.sound():
-            outcome.problem = str(error)
+            outcome.problem = report.problem(error)
 
 
 def read_parts(objects, face_mode, close=False, constraints=None):
@@ -65,17 +65,19 @@ def optimize_parts(parts, settings, progress=None):
     """Gives each outcome its result, or the problem that keeps it from one. Without bpy, for any thread."""
     searched = [part for part in parts if part.surface]
     for i, part in enumerate(searched):
+        share = jobs.share_of(progress, i, len(searched))
+        steps = 2 if any(outcome.closing for outcome in part.sound()) else 1
         try:
-            complete(part)
-            _fill_in(part, part.sound(), settings, jobs.share_of(progress, i, len(searched)))
+            complete(part, jobs.share_of(share, 0, steps))
+            _fill_in(part, part.sound(), settings, jobs.share_of(share, steps - 1, steps))
         except ValueError as error:
             part.outside = error.vertices if isinstance(error, OutsideBand) else ()
             part.fail(error)
 
 
-def complete(part):
+def complete(part, progress=None):
     """Closes the chains that are to be closed, and turns contours so that what is painted lies to their left."""
-    _close(part.surface, part.sound())
+    _close(part.surface, part.sound(), progress)
     _prepare_for_region(part)
 
 
@@ -140,16 +142,16 @@ def _problem(outcome, loose_edges):
     return ""
 
 
-def _close(surface, outcomes):
+def _close(surface, outcomes, progress):
     """Closes the chains that are to be closed. Loops that meet are no contours beside each other: the first has it."""
     taken = {vertex for outcome in outcomes if not outcome.closing for vertex in outcome.vertices.tolist()}
-    for outcome in outcomes:
-        if not outcome.closing:
-            continue
+    closing = [outcome for outcome in outcomes if outcome.closing]
+    for i, outcome in enumerate(closing):
+        share = jobs.share_of(progress, i, len(closing))
         try:
-            loop = native.module().close_contour(surface, outcome.vertices)
+            loop = native.module().close_contour(surface, outcome.vertices, progress=share)
         except ValueError as error:
-            outcome.problem = str(error)
+            outcome.problem = report.problem(error)
             continue
         if taken.isdisjoint(loop.tolist()):
             outcome.vertices, outcome.closed = loop, True

@@ -75,7 +75,7 @@ class MESH_OT_show_curvature(bpy.types.Operator):
         try:
             surface = api.surface_of(obj, beside=objects)
         except ValueError as error:
-            return str(error)
+            return report.problem(error)
         if surface.vertex_count == 0 or surface.face_count == 0:
             return report.NO_FACES
         mrc = native.module()

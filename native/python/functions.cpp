@@ -55,13 +55,15 @@ mrc::Measure measure(const Surface& surface, const py::object& vertices, bool cl
     return mrc::measure(surface, contour, options, wishes, scales);
 }
 
-Integers close_contour(const Surface& surface, const py::object& vertices) {
+py::object close_contour(const Surface& surface, const py::object& vertices, const py::object& progress) {
     const mrc::Contour chain = to_contour(vertices, false, py::none(), py::none());
+    const mrc::Progress report = to_progress(progress);
     mrc::Contour loop;
     {
         const py::gil_scoped_release release;
-        loop = mrc::close_contour(surface, chain);
+        loop = mrc::close_contour(surface, chain, report);
     }
+    if (loop.points.empty()) return py::none();
     return contour_vertices(loop);
 }
 
@@ -252,10 +254,12 @@ void bind_functions(py::module_& module) {
                py::arg("scales") = py::none(), py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
                "The ratio of a contour, without optimising (eq. 3.3).");
     module.def(
-        "close_contour", &close_contour, py::arg("surface"), py::arg("vertices"),
+        "close_contour", &close_contour, py::arg("surface"), py::arg("vertices"), py::arg("progress") = py::none(),
         "Closes an open chain round the limb that it lies on, so that part of a loop drawn by hand is enough.\n\n"
         "vertices: (N,) ids along mesh edges, from one end to the other, at least two. A quarter of a loop nearly always\n"
         "finds the limb.\n"
+        "progress: called every few milliseconds with the share of the vertices searched, from 0 to 1; returning False cancels,\n"
+        "and None is returned; an exception passes through.\n"
         "Returns (n,) int32: the closed contour, which begins with the chain. The way back is the path that is cheapest where\n"
         "the surface is far from the chain and faces away from it (Lee et al. 2004). Give it to optimize. Raises ValueError\n"
         "where nothing leads round, as on a plane.");

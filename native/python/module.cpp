@@ -12,6 +12,7 @@ PYBIND11_MODULE(mrcontour, module) {
         "in radians. Invalid input is a ValueError that names the elements; unknown options are a TypeError.";
     module.attr("__version__") = MRC_VERSION;
     py::register_exception<mrc::Infeasible>(module, "Infeasible", PyExc_ValueError);
+    py::register_exception<mrc::TooLarge>(module, "TooLarge", PyExc_ValueError);
     mrc_python::bind_surface(module);
     mrc_python::bind_options(module);
     mrc_python::bind_results(module);

@@ -28,6 +28,30 @@ const char* status_name(mrc::Status status) {
     return "";
 }
 
+const char* reason_name(mrc::Reason reason) {
+    switch (reason) {
+        case mrc::Reason::none:
+            return "";
+        case mrc::Reason::already_best:
+            return "already_best";
+        case mrc::Reason::not_salient:
+            return "not_salient";
+        case mrc::Reason::no_room:
+            return "no_room";
+        case mrc::Reason::against_flow:
+            return "against_flow";
+        case mrc::Reason::no_neighbour:
+            return "no_neighbour";
+        case mrc::Reason::shared_faces:
+            return "shared_faces";
+        case mrc::Reason::none_refined:
+            return "none_refined";
+        case mrc::Reason::cancelled:
+            return "cancelled";
+    }
+    return "";
+}
+
 Integers edge_vertices(const mrc::Contour& contour) {
     std::vector<int> ends;
     for (const auto& p : contour.points) ends.insert(ends.end(), {p.a, p.b});
@@ -106,6 +130,10 @@ void bind_results(py::module_& module) {
         .def_property_readonly(
             "status", [](const PyResult& r) { return status_name(r.result.status); },
             "'improved', 'unchanged', 'constrained' (the given contour broke a requirement) or 'cancelled'.")
+        .def_property_readonly(
+            "reason_code", [](const PyResult& r) { return reason_name(r.result.reason_code); },
+            "The same for programs: 'already_best', 'not_salient', 'no_room', 'against_flow', 'no_neighbour', 'shared_faces', "
+            "'none_refined', 'cancelled', or empty.")
         .def_property_readonly("reason", field(&mrc::Result::reason), "Why the given contour is returned, in words.")
         .def_property_readonly("ratio", field(&mrc::Result::ratio))
         .def_property_readonly("initial_ratio", field(&mrc::Result::initial_ratio))

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <mrc/close.h>
 
+#include "watch.h"
+
 #include <mrc/curvature.h>
 #include <mrc/distances.h>
 #include <mrc/patch.h>
@@ -92,9 +94,10 @@ Options unsmoothed() {
 /// Dijkstra's search from the chain's last vertex to its first.
 class ClosingSearch {
   public:
-    ClosingSearch(const Surface& surface, const std::vector<int>& chain)
+    ClosingSearch(const Surface& surface, const std::vector<int>& chain, Watch& watch)
         : surface_(surface),
           chain_(chain),
+          watch_(watch),
           limb_(limb_at(surface, chain)),
           from_chain_(surface, vertex_contour(chain, false)),
           curvature_(surface, mean_edge_length(surface, vertex_contour(chain, false)), unsmoothed()),
@@ -110,6 +113,7 @@ class ClosingSearch {
             queue_.pop();
             Place& place = places_.at(vertex);
             if (std::exchange(place.settled, true)) continue;
+            watch_.beat(static_cast<double>(settled_++) / surface_.vertex_count());
             if (vertex == goal) return path_to(place.previous);
             surface_.for_each_real_edge(vertex, [&](int neighbour, int) { relax(vertex, neighbour, entry.first); });
         }
@@ -129,6 +133,8 @@ class ClosingSearch {
     using Entry = std::pair<double, int>;
     const Surface& surface_;
     const std::vector<int>& chain_;
+    Watch& watch_;
+    int settled_ = 0;
     Limb limb_;
     DistanceField from_chain_;
     CurvatureField curvature_;
@@ -208,13 +214,22 @@ std::vector<int> chain_vertices(const Contour& chain) {
 
 }  // namespace
 
-Contour close_contour(const Surface& surface, const Contour& chain) {
+Contour close_contour(const Surface& surface, const Contour& chain, const Progress& progress) {
     if (chain.closed) throw InvalidInput("the contour to be closed is closed already: give an open chain");
     std::vector<int> vertices = chain_vertices(checked_contour(surface, chain));
     // Searched from the same end whichever way the chain is given, so that equal paths are decided alike.
     const bool turned = vertices.front() > vertices.back();
     if (turned) std::ranges::reverse(vertices);
-    std::vector<int> closing = ClosingSearch(surface, vertices).run();
+    Watch watch(progress);
+    std::vector<int> closing;
+    try {
+        watch.advance(0.0);
+        closing = ClosingSearch(surface, vertices, watch).run();
+        watch.advance(1.0);
+    } catch (const Watch::Cancelled&) {
+        if (watch.failure()) std::rethrow_exception(watch.failure());
+        return {};
+    }
     if (turned) {
         std::ranges::reverse(vertices);
         std::ranges::reverse(closing);

@@ -45,7 +45,7 @@ void check_graph_size(double triangles, int steiner) {
     message.precision(3);
     message << "the graph would have about " << nodes << " nodes and " << arcs << " arcs and need " << bytes / 1e9
             << " GB: lower refinement (now " << steiner << ") or width";
-    throw InvalidInput(message.str());
+    throw TooLarge(message.str());
 }
 
 }  // namespace mrc

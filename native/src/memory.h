@@ -6,7 +6,7 @@
 namespace mrc {
 
 /// Refuses a graph that would not fit before it is built.
-/// @throws InvalidInput with the estimate and what to lower, above 2^31 arcs or more memory than is free.
+/// @throws TooLarge with the estimate and what to lower, above 2^31 arcs or more memory than is free.
 void check_graph_size(double triangles, int steiner);
 
 }  // namespace mrc

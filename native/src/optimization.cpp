@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 namespace mrc {
 namespace {
@@ -91,7 +92,7 @@ void Optimization::cut_out() {
     if (has_neighbour_along_edges(surface_, result_.contour)) {
         patch_ = stopwatch_.time("patch", [&] { return make_patch(surface_, result_.contour, phase_options_.width); });
     } else if (result_.status == Status::unchanged) {
-        result_.reason = no_neighbour;
+        because(Reason::no_neighbour, no_neighbour);
     }
 }
 
@@ -104,7 +105,7 @@ void Optimization::grow(Partition* partition, int number) {
         if (!result_.held_back_by.empty()) {
             patch_.reset();
             if (result_.status == Status::unchanged)
-                result_.reason = "no band can grow: its faces are also crossed by " + numbered(result_.held_back_by);
+                because(Reason::shared_faces, "no band can grow: its faces are also crossed by " + numbered(result_.held_back_by));
             return;
         }
         territory_ = partition->territory(number, *patch_);
@@ -158,7 +159,7 @@ Result Optimization::finish() {
     // What was won along mesh edges may be lost with the Steiner points of a last phase that found nothing.
     const bool lost = result_.status == Status::improved && below(result_.initial_objective, result_.objective);
     if (result_.status == Status::improved && (lost || (searched_ && featureless()))) keep_given();
-    if (lost) result_.reason = "no better contour was found across faces";
+    if (lost) because(Reason::none_refined, "no better contour was found across faces");
     return result_;
 }
 
@@ -166,6 +167,7 @@ Result Optimization::cancelled() const {
     Result result;
     result.contour = given_;
     result.status = Status::cancelled;
+    result.reason_code = Reason::cancelled;
     result.reason = "cancelled";
     result.ratio = result.initial_ratio = result_.initial_ratio;
     result.objective = result.initial_objective = result.lower_bound = result_.initial_objective;
@@ -218,7 +220,12 @@ void Optimization::explain_featureless() {
     std::ostringstream reason;
     reason << "there is nothing concave to find here: the best contour's salience is " << result_.salience << ", below "
            << options_.min_salience.value_or(0.0);
-    result_.reason = reason.str();
+    because(Reason::not_salient, reason.str());
+}
+
+void Optimization::because(Reason code, std::string words) {
+    result_.reason_code = code;
+    result_.reason = std::move(words);
 }
 
 /// Puts the given contour back; the certificate stays that of the best found.
@@ -230,14 +237,14 @@ void Optimization::keep_given() {
 }
 
 void Optimization::explain(const RatioResult& best) {
-    result_.reason.clear();
+    because(Reason::none, {});
     if (result_.status != Status::unchanged) return;
     if (band_.polygons.empty()) {
-        result_.reason = "nothing can grow around the contour: its faces touch it all round";
+        because(Reason::no_room, "nothing can grow around the contour: its faces touch it all round");
     } else if (!best.found) {
-        result_.reason = "no contour in the band runs along with the flow";
+        because(Reason::against_flow, "no contour in the band runs along with the flow");
     } else {
-        result_.reason = "the given contour is already the best in its band";
+        because(Reason::already_best, "the given contour is already the best in its band");
     }
     if (!result_.held_back_by.empty()) result_.reason += ", and " + numbered(result_.held_back_by) + " kept the band back";
 }

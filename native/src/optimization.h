@@ -104,6 +104,7 @@ class Optimization {
     bool featureless() const;
     void explain(const RatioResult& best);
     void explain_featureless();
+    void because(Reason code, std::string words);
     void keep_given();
     void count(const ContourGraph& graph, const RatioResult& best);
 };

@@ -94,6 +94,8 @@ class Company {
                 step(i);
             } catch (const Infeasible& error) {
                 throw Infeasible(name(i) + error.what());
+            } catch (const TooLarge& error) {
+                throw TooLarge(name(i) + error.what());
             } catch (const InvalidInput& error) {
                 throw InvalidInput(name(i) + error.what());
             }

@@ -91,13 +91,15 @@ void check_distinct(const Contour& contour) {
 /// What keeps a band from growing on the side of this half-edge, in words; empty: nothing.
 std::string obstacle(const Surface& surface, int halfedge) {
     if (halfedge == Surface::border) return "on the border of the mesh";
-    if (halfedge == Surface::irregular) return "on an edge of more than two faces or of disagreeing winding";
+    if (halfedge == Surface::irregular) return "on an edge of more than two faces, or of two whose normals disagree";
     const int face = surface.halfedge_face(halfedge);
     if (surface.hidden(face)) return "beside the hidden face " + std::to_string(face);
     for (const int v : surface.face(face)) {
-        if (!surface.regular(v)) return "beside the non-manifold vertex " + std::to_string(v);
+        if (!surface.regular(v))
+            return "beside vertex " + std::to_string(v) + ", which is non-manifold or has faces whose normals disagree";
     }
-    if (!usable(surface, face)) return "beside face " + std::to_string(face) + ", whose diagonal joins the ends of another edge";
+    if (!usable(surface, face))
+        return "beside face " + std::to_string(face) + ", two opposite corners of which another edge or face joins too";
     return {};
 }
 

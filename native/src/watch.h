@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <mrc/optimize.h>
+#include <mrc/types.h>
 
 #include <atomic>
 #include <chrono>
@@ -29,6 +29,12 @@ class Watch {
     void beat() {
         if (due()) ask();
         stop_if_cancelled();
+    }
+
+    /// The same with the share done so far, on the caller's thread only.
+    void beat(double share) {
+        share_ = share;
+        beat();
     }
 
     /// The same for a thread that only waits for others.

@@ -174,6 +174,56 @@ def test_an_edge_of_three_faces(output, last):
     assert any(str(vertex) in last.message for vertex in ring(5)[:2])
 
 
+def test_faces_whose_normals_disagree(last):
+    obj = grooved_cylinder()
+    edit(obj)
+    select(obj, pairs(ring(5)))
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.faces.ensure_lookup_table()
+    bm.faces[5 * SEGMENTS + 3].normal_flip()
+    bmesh.update_edit_mesh(obj.data)
+    cancelled(obj)
+    assert f"beside vertex {ring(5)[3]}" in last.message or f"beside vertex {ring(5)[4]}" in last.message
+    assert "faces whose normals disagree: move the contour off it" in last.message
+
+
+def test_loose_edges_beside_a_loop(last):
+    """A chain of edges without faces between two points of the surface."""
+    obj = grooved_cylinder()
+    edit(obj)
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    middle = bm.verts.new((2, 0, 1))
+    bm.verts.ensure_lookup_table()
+    loose = [bm.edges.new((bm.verts[ring(5)[0]], middle)), bm.edges.new((middle, bm.verts[ring(5)[9]]))]
+    for edge in loose:
+        edge.select_set(True)
+    bmesh.update_edit_mesh(obj.data)
+    obj.update_from_editmode()
+    cancelled(obj)
+    assert "with loose edges that no face uses" in last.message
+    assert "select edges of faces only" in last.message
+
+
+def test_a_selection_that_branches(last):
+    obj = grooved_cylinder()
+    edit(obj)
+    column = [row * SEGMENTS + 4 for row in range(5, 10)]
+    select(obj, pairs(ring(7)) + pairs(column, closed=False))
+    cancelled(obj, output="SEAM")
+    assert f"a selection that branches at vertex {7 * SEGMENTS + 4}; select single loops" in last.message
+
+
+def test_vertices_that_lie_on_one_point(last):
+    obj = grooved_cylinder()
+    for vertex in obj.data.vertices:
+        vertex.co = (1, 2, 3)
+    edit(obj)
+    select(obj, pairs(ring(7)))
+    cancelled(obj)
+    assert "lie at one point" in last.message or "length 0" in last.message
+
+
 def test_one_bad_contour_does_not_keep_the_others(last):
     obj = with_fin()
     select(obj, pairs(ring(5)) + pairs(rough_loop(GROOVE - 3)))
@@ -195,8 +245,8 @@ def cylinder_of_loops():
 def test_nothing_can_grow(output, last):
     obj = cylinder_of_loops()
     cancelled(obj, output=output, min_salience=0.0)
-    assert "nothing can grow around the contour" in last.message
-    assert "kept the band back" in last.message
+    assert "no faces around it to search: select fewer contours" in last.message
+    assert "beside it kept the search back" in last.message
 
 
 def test_where_nothing_can_grow_the_contour_is_output_all_the_same(last):
@@ -204,7 +254,7 @@ def test_where_nothing_can_grow_the_contour_is_output_all_the_same(last):
     expected = flagged(obj, "select")
     assert bpy.ops.mesh.optimize_contour(output="SEAM", min_salience=0.0) == {"FINISHED"}
     assert flagged(obj, "seam") == expected
-    assert "nothing can grow around the contour" in last.message
+    assert "no faces around it to search: select fewer contours" in last.message
 
 
 def test_a_linked_mesh(tmp_path):

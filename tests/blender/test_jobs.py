@@ -24,7 +24,7 @@ from made_meshes import (
     select,
     set_flag,
 )
-from minimum_ratio_contours import api, jobs, network_operators, operators, report
+from minimum_ratio_contours import api, jobs, network_operators, operators, report, selection
 
 LOOP = rough_loop(GROOVE - 3)
 TIMER, ESC = SimpleNamespace(type="TIMER", value="NOTHING"), SimpleNamespace(type="ESC", value="PRESS")
@@ -75,6 +75,36 @@ def test_a_native_search_ends_at_the_next_word_of_its_progress():
     assert results == []
 
 
+def test_closing_a_contour_ends_at_the_next_word_of_its_progress():
+    surface = api.surface_of(grooved_cylinder())
+    shares = []
+
+    def leave(share):
+        shares.append(share)
+        raise jobs.Cancelled
+
+    with pytest.raises(jobs.Cancelled):
+        api.optimize_on(surface, LOOP[5:16], close=True, progress=leave)
+    assert shares == [0.0]
+    result = api.optimize_on(surface, LOOP[5:16], close=True, progress=lambda share: shares.append(share) or False)
+    assert result.status == "cancelled"
+    assert shares == [0.0, 0.0]
+
+
+def test_closing_and_searching_share_one_progress():
+    obj = grooved_cylinder()
+    edit(obj)
+    select(obj, pairs(LOOP[5:16], closed=False))
+    parts, shares = selection.read_parts([obj], face_mode=False, close=True), []
+    selection.optimize_parts(parts, {}, lambda share: shares.append(share) or True)
+    assert shares == sorted(shares)
+    assert (shares[0], shares[-1]) == (0.0, 1.0)
+    assert 0.5 in shares
+    (outcome,) = parts[0].outcomes
+    whole = api.optimize_on(api.surface_of(obj), LOOP[5:16], close=True)
+    np.testing.assert_array_equal(outcome.result.vertices, whole.vertices)
+
+
 def test_several_searches_share_one_progress():
     shares = []
     for i in range(4):
@@ -94,11 +124,11 @@ class Contour(operators.ContourOutput, operators.SearchInEditMode):
 
 
 class Seams(network_operators.NetworkOperator):
-    selected_only = False
+    selected_only, merge = False, 0.0
 
 
 class Segmentation(network_operators.NetworkOperator):
-    source, attribute = "MATERIAL", ""
+    source, attribute, merge = "MATERIAL", "", 0.0
 
 
 REAL = {

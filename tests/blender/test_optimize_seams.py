@@ -278,7 +278,7 @@ def test_api(mode):
 
 
 @pytest.mark.parametrize("name", sorted(parameters.SETTINGS.keys() - parameters.NETWORK))
-def test_networks_run_along_edges_and_their_ends_are_settled(name):
+def test_where_the_ends_of_a_network_go_is_settled(name):
     obj = start(pairs(START))
     with pytest.raises(TypeError, match=name):
         run(**{name: parameters.SETTINGS[name]["default"]})

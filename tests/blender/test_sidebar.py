@@ -103,7 +103,7 @@ def test_the_panel_says_what_was_found(last):
     bpy.ops.mesh.optimize_contour()
     (numbers,) = last.contours
     assert numbers.status == "unchanged"
-    assert numbers.reason == "the given contour is already the best in its band"
+    assert numbers.reason == "it is already the best nearby: raise Width or Reach to look farther"
     assert numbers.reason in last.message
 
 

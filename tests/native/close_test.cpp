@@ -11,6 +11,7 @@
 #include <numeric>
 #include <random>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -119,6 +120,32 @@ TEST(Close, SaysWhyItCannot) {
     const std::string message = message_of(tube.surface(), tube.chain(14, 2, 8));
     EXPECT_NE(message.find("vertex " + std::to_string(14 * tube.columns + 2)), std::string::npos);
     EXPECT_NE(message.find("vertex " + std::to_string(14 * tube.columns + 9)), std::string::npos);
+}
+
+TEST(Close, ProgressNeverFallsAndChangesNothing) {
+    const Tube tube{.rows = 120, .columns = 200, .noise = 0.001};
+    const Surface surface = tube.surface();
+    const Contour chain = tube.chain(60, 3, 60);
+    std::vector<double> shares;
+    const Contour loop = close_contour(surface, chain, [&](double share) {
+        shares.push_back(share);
+        return true;
+    });
+    EXPECT_EQ(loop, close_contour(surface, chain));
+    EXPECT_TRUE(std::ranges::is_sorted(shares));
+    EXPECT_EQ(shares.front(), 0.0);
+    EXPECT_EQ(shares.back(), 1.0);
+    EXPECT_GT(shares.size(), 2U);
+}
+
+TEST(Close, CancelledItHasNoPoints) {
+    const Tube tube;
+    int calls = 0;
+    const Contour loop = close_contour(tube.surface(), tube.chain(14, 2, 8), [&](double) { return ++calls < 1; });
+    EXPECT_TRUE(loop.points.empty());
+    EXPECT_EQ(calls, 1);
+    const auto fail = [](double) -> bool { throw std::runtime_error("enough"); };
+    EXPECT_THROW(close_contour(tube.surface(), tube.chain(14, 2, 8), fail), std::runtime_error);
 }
 
 TEST(DistanceField, TheNearestPointHasTheDistance) {

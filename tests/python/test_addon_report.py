@@ -2,19 +2,26 @@
 """The words in which the add-on reports, without Blender."""
 
 import importlib
+import re
 import sys
 from pathlib import Path
 from types import SimpleNamespace
 
+import meshes
+import mrcontour as mrc
 import numpy as np
 import pytest
+from conftest import surface_of
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 report = importlib.import_module("addon.report")
+parameters = importlib.import_module("addon.parameters")
 
 
-def done(status="improved", before=0.5, after=-1.0, reason="", place="Hand"):
-    result = SimpleNamespace(status=status, initial_ratio=before, ratio=after, reason=reason)
+def done(status="improved", before=0.5, after=-1.0, code="", place="Hand", held_back_by=()):
+    result = SimpleNamespace(
+        status=status, initial_ratio=before, ratio=after, reason_code=code, held_back_by=held_back_by
+    )
     return report.Outcome(place, np.empty((0, 2)), result=result)
 
 
@@ -22,16 +29,16 @@ def left(problem, place="Hand"):
     return report.Outcome(place, np.empty((0, 2)), problem=problem)
 
 
-STAYED = done("unchanged", -2, -2, "nothing better")
+STAYED = done("unchanged", -2, -2, "cancelled")
 
 
 @pytest.mark.parametrize(
     ("outcomes", "expected"),
     [
         ([done()], "1 contour improved. Ratio 0.5 to -1"),
-        ([STAYED], "1 contour unchanged (nothing better). Ratio -2 to -2"),
-        ([done(), STAYED, done()], "2 contours improved, 1 unchanged (nothing better). Mean ratio -0.3333 to -1.333"),
-        ([STAYED, STAYED], "2 contours unchanged (nothing better). Mean ratio -2 to -2"),
+        ([STAYED], "1 contour unchanged (cancelled). Ratio -2 to -2"),
+        ([done(), STAYED, done()], "2 contours improved, 1 unchanged (cancelled). Mean ratio -0.3333 to -1.333"),
+        ([STAYED, STAYED], "2 contours unchanged (cancelled). Mean ratio -2 to -2"),
         ([done(), left("it branches")], "1 contour improved. Ratio 0.5 to -1. Left as it is: it branches"),
         (
             [done(), left("it branches", "Foot"), left("it is open")],
@@ -42,6 +49,51 @@ STAYED = done("unchanged", -2, -2, "nothing better")
 )
 def test_summary(outcomes, expected):
     assert report.summary(outcomes) == expected
+
+
+def test_every_native_reason_has_words_of_its_own():
+    codes = set(re.findall(r"'(\w+)'", mrc.Result.reason_code.__doc__))
+    assert len(codes) > 5
+    assert codes == report._REASONS.keys()
+    assert len(set(report._REASONS.values())) == len(codes)
+    assert report.reason(done().result) == ""
+
+
+@pytest.mark.parametrize(("held_back_by", "words"), [((4,), "1 other contour"), ((2, 0, 7), "3 other contours")])
+def test_contours_in_the_way_are_counted_not_numbered(held_back_by, words):
+    why = report.reason(done("unchanged", code="already_best", held_back_by=held_back_by).result)
+    assert why.endswith(f"; {words} beside it kept the search back")
+
+
+def test_words_name_settings_as_the_panel_shows_them():
+    texts = [*report._REASONS.values(), *report._PROBLEMS.values()]
+    shown = {row["name"] for row in parameters.SETTINGS.values()}
+    named = [name for text in texts for name in re.findall(r"(?<!^)\b[A-Z]\w+(?: [A-Z]\w+)*", text)]
+    assert len(named) > 5
+    assert set(named) <= shown
+    assert not [text for text in texts if "_" in text]
+
+
+def large_torus():
+    return meshes.torus(160, 400)
+
+
+def test_native_errors_are_put_into_the_panels_words():
+    mesh = large_torus()
+    ring = [400 * row for row in range(160)]
+    options = mrc.Options(refinement=16, width=250, flow="arc_length")
+    with pytest.raises(mrc.TooLarge, match="lower refinement") as caught:
+        mrc.optimize(surface_of(mesh), ring, options=options)
+    assert "lower Refinement or Width" in report.problem(caught.value)
+    assert issubclass(mrc.TooLarge, ValueError)
+
+
+def test_the_place_in_a_list_is_left_out():
+    mesh = meshes.torus(14, 30)
+    with pytest.raises(ValueError, match=r"^contour 1: ") as caught:
+        mrc.optimize_all(surface_of(mesh), [[30 * row for row in range(14)], [3, 4, 4]])
+    assert report.problem(caught.value) == str(caught.value).removeprefix("contour 1: ")
+    assert report.problem(ValueError("contour lines: none")) == "contour lines: none"
 
 
 def test_problems_name_their_elements():

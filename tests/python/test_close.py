@@ -193,6 +193,47 @@ def plane(rows=12, columns=15):
     return meshes.polygon_mesh(points, meshes.grid_faces(rows, columns, closed_columns=False))
 
 
+def test_progress_never_falls_and_changes_nothing():
+    rng = np.random.default_rng(4)
+    mesh, chain = grid_limb("grooved", rng), np.arange(20 * COLUMNS + 3, 20 * COLUMNS + 12)
+    shares = []
+    loop = mrc.close_contour(surface_of(mesh), chain, progress=shares.append)
+    np.testing.assert_array_equal(loop, mrc.close_contour(surface_of(mesh), chain))
+    assert shares == sorted(shares)
+    assert (shares[0], shares[-1]) == (0.0, 1.0)
+
+
+def test_closing_is_cancelled_at_once():
+    surface, shares = surface_of(grid_limb("cylinder", np.random.default_rng(4))), []
+    chain = np.arange(20 * COLUMNS + 3, 20 * COLUMNS + 12)
+    assert mrc.close_contour(surface, chain, progress=lambda share: shares.append(share) or False) is None
+    assert shares == [0.0]
+    with pytest.raises(ZeroDivisionError):
+        mrc.close_contour(surface, chain, progress=lambda _: 1 / 0)
+
+
+def test_a_long_refusal_can_be_left():
+    """All that can be reached is searched before nothing is found; progress is heard meanwhile."""
+    plane = meshes.polygon_mesh(*flat_sheet(160))
+    shares = []
+    with pytest.raises(ValueError, match="nothing leads"):
+        mrc.close_contour(surface_of(plane), np.arange(12870, 12890), progress=shares.append)
+    assert len(shares) > 3
+    assert shares == sorted(shares)
+    heard = []
+    left = mrc.close_contour(
+        surface_of(plane), np.arange(12870, 12890), progress=lambda share: heard.append(share) or share < 0.3
+    )
+    assert left is None
+    assert 0.3 <= heard[-1] < 0.9
+
+
+def flat_sheet(size):
+    x, y = np.meshgrid(np.arange(size) * 1.0, np.arange(size) * 1.0)
+    points = np.stack([x, y, np.zeros_like(x)], axis=-1).reshape(-1, 3)
+    return points, meshes.grid_faces(size, size, closed_columns=False)
+
+
 def test_nothing_leads_round_on_a_plane():
     with pytest.raises(ValueError, match="vertex 83.*vertex 79.*draw the chain on a limb"):
         mrc.close_contour(surface_of(plane()), np.arange(79, 84))

@@ -13,7 +13,9 @@ namespace mrc {
 /// it goes round the limb and not back beside the chain. The formulas, and what differs from theirs, stand in the source.
 /// The work grows with what lies within the cost of the closing path, not with the mesh.
 /// Reversing the chain gives the same loop, reversed.
+/// `progress` is called every few milliseconds with the share of the surface's vertices that is searched; where it cancels, the result
+/// has no points.
 /// @throws InvalidInput where the chain is none (`checked_contour`), has points inside edges, or nothing leads round, as on a plane.
-Contour close_contour(const Surface& surface, const Contour& chain);
+Contour close_contour(const Surface& surface, const Contour& chain, const Progress& progress = {});
 
 }  // namespace mrc

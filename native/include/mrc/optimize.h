@@ -20,6 +20,19 @@ namespace mrc {
 
 enum class Status { improved, unchanged, constrained, cancelled };
 
+/// Why the given contour is returned.
+enum class Reason {
+    none,          ///< it is not
+    already_best,  ///< nothing in its band is better
+    not_salient,   ///< there is nothing concave to find (min_salience)
+    no_room,       ///< no band can grow: its faces touch it all round
+    against_flow,  ///< no contour in the band runs along with the flow
+    no_neighbour,  ///< it is refined, and no simple contour along edges lies beside it
+    shared_faces,  ///< no band can grow: other contours cross its faces too
+    none_refined,  ///< what is better along edges is not with Steiner points
+    cancelled,
+};
+
 /// The columns of tables 5.1 and 5.2, of the last iteration but where a sum is named.
 struct Statistics {
     int faces = 0;  ///< polygons in the band
@@ -35,7 +48,8 @@ struct Statistics {
 struct Result {
     Contour contour;
     Status status = Status::unchanged;
-    std::string reason;  ///< in words, where the given contour is returned
+    Reason reason_code = Reason::none;
+    std::string reason;  ///< the same in words
     double ratio = 0.0, initial_ratio = 0.0;
     double objective = 0.0, initial_objective = 0.0;
     double salience = 0.0;          ///< minus the ratio over K of the best found, even where the given contour is returned
@@ -47,13 +61,10 @@ struct Result {
     Statistics statistics;
 };
 
-/// Called with the share done, from 0 to 1 without falling, on the caller's thread: at each of three phases an iteration, and in long
-/// phases again every few milliseconds; false cancels.
-using Progress = std::function<bool(double)>;
-
 /// Moves a contour to the one of least ratio in a band around it (chapter 4).
 ///
 /// `scales`: those of an earlier result, to go on from it; none: of this contour.
+/// `progress` is called at each of three phases an iteration, and in long phases again every few milliseconds.
 /// @throws InvalidInput for options and wishes out of range and for contours that are not simple or not inside the mesh.
 /// @throws Infeasible where no contour of the band has all required elements.
 Result optimize(const Surface& surface, const Contour& contour, const Options& options = {}, const Wishes& wishes = {},
