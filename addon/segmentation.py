@@ -28,7 +28,7 @@ def read_labelling(obj, source, attribute=""):
     if source not in SOURCES:
         raise ValueError(f"the source is {source!r}; it must be one of {', '.join(SOURCES)}")
     name = {"FACE_SETS": FACE_SETS, "MATERIAL": None, "ATTRIBUTE": attribute}[source]
-    labels = mesh_access.read_labels(obj.data, name)
+    labels = mesh_access.read_labels(obj, name)
     if labels is None:
         raise NoLabels(report.no_face_sets() if source == "FACE_SETS" else report.no_attribute(attribute))
     return Labelling(name, labels)
@@ -40,7 +40,7 @@ def read_network(obj, labelling):
     A region is one connected piece of one label. Contours run along edges, since labels belong to whole faces. Those
     across faces would have to be cut into the mesh first, and the labels read again.
     """
-    topology = networks.make_topology(**vars(mesh_access.read_edge_arrays(obj.data)))
+    topology = networks.make_topology(**vars(mesh_access.read_edge_arrays(obj)))
     return networks.make_network(topology, networks.label_borders(topology, labelling.labels))
 
 
