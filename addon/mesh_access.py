@@ -72,8 +72,10 @@ def read_selection(obj, face_mode):
         directed = _selected_border(obj)
         return EdgeSelection(directed, directed[:0])
     chosen = np.flatnonzero(columns.read(obj, "edges", "select", bool))
-    edges = columns.read_some(obj, "edges", chosen, "vertices", np.int32, 2)
-    return EdgeSelection(edges, edges[columns.read_some(obj, "edges", chosen, "is_loose", bool)])
+    edges = columns.read(obj, "edges", "vertices", np.int32, 2)[chosen]
+    used = np.zeros(len(obj.data.edges), dtype=bool)
+    used[columns.read(obj, "loops", "edge_index", np.int32)] = True
+    return EdgeSelection(edges, edges[~used[chosen]])
 
 
 @dataclass(frozen=True)

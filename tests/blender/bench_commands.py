@@ -30,14 +30,14 @@ HAND_OVER = ("update_from_editmode", "the arrays")
 
 
 def plain_arrays(mesh):
-    """Points, faces, triangles and what is hidden, as properties hand them over."""
+    """Points, faces, triangles and what is hidden, as properties hand them over to arrays of just their type."""
     mesh.calc_loop_triangles()
     for elements, name, dtype, width in (
         (mesh.vertices, "co", np.float32, 3),
-        (mesh.polygons, "loop_start", np.int32, 1),
+        (mesh.polygons, "loop_start", np.uint32, 1),
         (mesh.polygons, "hide", bool, 1),
-        (mesh.loops, "vertex_index", np.int32, 1),
-        (mesh.loop_triangles, "vertices", np.int32, 3),
+        (mesh.loops, "vertex_index", np.uint32, 1),
+        (mesh.loop_triangles, "vertices", np.uint32, 3),
     ):
         elements.foreach_get(name, np.empty(len(elements) * width, dtype=dtype))
 
