@@ -23,6 +23,7 @@ _BEHIND = {
     ("polygons", "hide"): ".hide_poly",
     ("polygons", "material_index"): "material_index",
 }  # the attribute behind a property, which is missing where every element has the default, 0
+_TYPES = {bool: "BOOLEAN", np.int32: "INT"}
 if bpy.app.version < (5, 0, 0):
     del _BEHIND["edges", "use_seam"]  # it has had several names
 if bpy.app.version < (4, 1, 0):
@@ -49,6 +50,8 @@ def read(obj, collection, name, dtype, width=1):
         attribute = mesh.attributes.get(_BEHIND[collection, name])
         if attribute is None:
             return np.zeros(len(getattr(mesh, collection)), dtype=dtype)
+        if attribute.data_type != _TYPES[dtype]:  # Blender 5.0 spoils that of the selection where it makes the edges
+            return values(getattr(mesh, collection), name, dtype)
         return values(attribute.data, "value", dtype)
 
 
