@@ -20,6 +20,7 @@ class ContourPin(bpy.types.PropertyGroup):
     vertex: IntProperty(name="Vertex", description="The vertex's index")
 
 
+_SOON = 0.001  # seconds
 _SHARED = properties_of(ContourSettings, ContourConstraints, ContourOutput)  # with Optimize Contour
 
 
@@ -61,7 +62,7 @@ class MESH_OT_adjust_contour(ContourSettings, ContourConstraints, ContourOutput,
             return {"CANCELLED"}
         from . import overlay  # needs a graphics card, which a Blender without windows has not
 
-        self._area = context.area
+        self._area, self._timer = context.area, None
         self._overlay = overlay.Overlay()
         with self._nothing_left_behind(context):
             self._show()
@@ -76,6 +77,8 @@ class MESH_OT_adjust_contour(ContourSettings, ContourConstraints, ContourOutput,
 
     def _react(self, context, event):
         command = adjust_state.command_of(event.type, event.shift, event.ctrl, event.alt)
+        if event.type == "TIMER" or command in (CONFIRM, PIN):
+            self._catch_up(context)
         if command == PASS:
             return {"PASS_THROUGH"}
         if event.value != "PRESS" or command == IGNORE:
@@ -87,11 +90,12 @@ class MESH_OT_adjust_contour(ContourSettings, ContourConstraints, ContourOutput,
             return self._confirm(context)
         state = self._pinned(event) if command == PIN else adjust_state.changed(self._state, command)
         if state is not self._state:
-            self._step(state)
+            self._step(context, state)
         return {"RUNNING_MODAL"}
 
     def cancel(self, context):
         """Takes away all that was shown; Blender calls it too, where the window is closed."""
+        self._stop_timer(context)
         self._overlay.remove()
         self._area.header_text_set(None)
         context.workspace.status_text_set(None)
@@ -139,13 +143,30 @@ class MESH_OT_adjust_contour(ContourSettings, ContourConstraints, ContourOutput,
             except ValueError as error:
                 self._problem = report.unsearchable(error, preview.pins_outside(self._state))
 
-    def _step(self, state):
-        """Goes on with other settings or pins; one command changes one thing, and the output needs no search."""
-        searched = state.output != self._state.output
+    def _step(self, context, state):
+        """Goes on with other settings or pins; one command changes one thing, and the output needs no search.
+
+        Blender hands a timer's event over after all those that came before it. So what piles up during a long search
+        is searched once, with the last settings.
+        """
+        search = state.output == self._state.output
         self._state = state
-        if not searched:
+        if not search:
+            self._say()
+        elif self._timer is None:
+            self._timer = context.window_manager.event_timer_add(_SOON, window=context.window)
+
+    def _catch_up(self, context):
+        """Searches where the settings have changed since the last search."""
+        if self._timer is not None:
+            self._stop_timer(context)
             self._show()
-        self._say()
+            self._say()
+
+    def _stop_timer(self, context):
+        if self._timer is not None:
+            context.window_manager.event_timer_remove(self._timer)
+            self._timer = None
 
     def _show(self):
         self._search()

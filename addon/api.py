@@ -111,7 +111,7 @@ def arrays_and_surface_of(obj, beside=()):
     known = _kept.get(name)
     if known is None or not known[0].equal(arrays):
         _kept.pop(name, None)
-        _kept[name] = arrays, mrc.Surface(**vars(arrays))
+        _kept[name] = arrays, mrc.Surface(**arrays.keywords())
     return _kept[name]
 
 

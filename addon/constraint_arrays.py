@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """From what a mesh's layers say to the constraints of native calls. Needs no Blender."""
 
+from collections import defaultdict
 from dataclasses import dataclass, field
+from itertools import product
 
 import numpy as np
 
 from .contours import common_edges, contour_edges
 from .parameters import native_options
+
+_BESIDE = tuple(product((-1, 0, 1), repeat=3))  # a cell and those round it
 
 
 def _ids(*shape):
@@ -79,19 +83,25 @@ class Constraints:
 
     def _mean_density(self, faces, vertices):
         """Of those of the faces that have one of the vertices."""
-        corners = np.isin(self.face_vertices, vertices)
-        touching = np.logical_or.reduceat(corners, self.face_offsets[:-1])[faces]
+        corners, starts = self._corners(faces)
+        touching = np.logical_or.reduceat(np.isin(corners, vertices), starts)
         return self.density[faces][touching].mean() if touching.any() else 0.0
 
     def _bands(self, mrc, surface, contours, closed, options):
         """The vertices of the faces that are searched, for each contour by itself."""
         options = mrc.Options(**options)
-        bands = []
-        for vertices, is_closed in zip(contours, closed):
-            inside = np.zeros(len(self.face_offsets) - 1, dtype=bool)
-            inside[mrc.band(surface, vertices, closed=is_closed, options=options)] = True
-            bands.append(np.unique(self.face_vertices[np.repeat(inside, np.diff(self.face_offsets))]))
-        return bands
+        bands = [
+            mrc.band(surface, vertices, closed=is_closed, options=options)
+            for vertices, is_closed in zip(contours, closed)
+        ]
+        return [np.unique(self._corners(faces)[0]) for faces in bands]
+
+    def _corners(self, faces):
+        """The vertices of some faces, face by face, and where each face's begin."""
+        counts = self.face_offsets[faces + 1] - self.face_offsets[faces]
+        starts = np.cumsum(counts) - counts
+        shift = np.repeat(self.face_offsets[faces] - starts, counts)
+        return self.face_vertices[shift + np.arange(len(shift))], starts
 
     def _weights(self, edges):
         """The pull of each vertex, or nothing where there is none."""
@@ -120,9 +130,12 @@ def attractors(points, vertices, weights, radius, strength):
     order = np.lexsort((vertices, -weights))
     kept = order[_apart(points[vertices[order]], radius / 2)]
     places = points[vertices[kept]]
+    grid = _Grid(radius)
+    for place in places:
+        grid.add(place)
     rows = np.empty((len(kept), 3))
     for row, place, vertex, weight in zip(rows, places, vertices[kept], weights[kept]):
-        squares = ((places - place) ** 2).sum(axis=1)
+        squares = ((places[grid.near(place)] - place) ** 2).sum(axis=1)
         row[:] = vertex, radius, strength * weight / np.exp(-2 * squares[squares <= radius**2] / radius**2).sum()
     return rows
 
@@ -151,13 +164,34 @@ def face_means(face_offsets, corner_values):
 
 def _apart(points, distance):
     """The points, by their numbers, that are not within a distance of one that comes earlier and is kept."""
-    free = np.ones(len(points), dtype=bool)
-    kept = []
+    grid, kept = _Grid(distance), []
     for index, point in enumerate(points):
-        if free[index]:
+        near = [kept[i] for i in grid.near(point)]
+        if not near or (((points[near] - point) ** 2).sum(axis=1) > distance**2).all():
             kept.append(index)
-            free &= ((points - point) ** 2).sum(axis=1) > distance**2
+            grid.add(point)
     return np.array(kept, dtype=int)
+
+
+class _Grid:
+    """Points, by the cells that they lie in: what lies within `reach` of a point is in its cell or one beside it."""
+
+    def __init__(self, reach):
+        self._size = 1.001 * reach or 1.0  # a little more, against rounding
+        self._cells, self._count = defaultdict(list), 0
+
+    def add(self, point):
+        self._cells[self._cell(point)].append(self._count)
+        self._count += 1
+
+    def near(self, point):
+        """At least the points within reach, by their numbers in ascending order."""
+        x, y, z = self._cell(point)
+        beside = ((x + i, y + j, z + k) for i, j, k in _BESIDE)
+        return sorted(index for cell in beside if cell in self._cells for index in self._cells[cell])
+
+    def _cell(self, point):
+        return tuple((point // self._size).tolist())
 
 
 def _without(edges, others):

@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reads from a mesh's layers what constrains its contours."""
 
-from contextlib import contextmanager
-
 import bmesh
+import bpy
 import numpy as np
 
-from . import mesh_access, report
+from . import columns, mesh_access, report
 from .constraint_arrays import Constraints, face_means
 from .parameters import CONSTRAINTS
+
+_FACE_TYPES = {"FLOAT": np.float32, "INT": np.int32, "BOOLEAN": bool}
 
 
 def read(obj, **settings):
@@ -21,99 +22,97 @@ def read(obj, **settings):
     if not named and wanted["region_source"] == "NONE":
         return None
     arrays = mesh_access.read_arrays(obj)
-    with _bmesh_of(obj) as bm:
-        required = _group(obj, bm, wanted["required_group"])
-        density = _density(obj, bm, arrays.face_offsets, wanted["region_source"], wanted["region_layer"])
-        return Constraints(
-            points=arrays.positions,
-            face_offsets=arrays.face_offsets,
-            face_vertices=arrays.face_vertices,
-            required=np.flatnonzero(required > 0).astype(np.int32),
-            barriers=_marked(bm, wanted["barrier_marks"]),
-            pulls=_group(obj, bm, wanted["attractor_group"]),
-            attracting=_marked(bm, wanted["attractor_marks"]),
-            strength=wanted["attractor_strength"],
-            radius=wanted["attractor_radius"],
-            density=density,
-            region_strength=wanted["region_strength"],
-        )
+    required = _group(obj, wanted["required_group"])
+    return Constraints(
+        points=arrays.positions,
+        face_offsets=arrays.face_offsets,
+        face_vertices=arrays.face_vertices,
+        required=np.flatnonzero(required > 0).astype(np.int32),
+        barriers=_marked(obj, wanted["barrier_marks"]),
+        pulls=_group(obj, wanted["attractor_group"]),
+        attracting=_marked(obj, wanted["attractor_marks"]),
+        strength=wanted["attractor_strength"],
+        radius=wanted["attractor_radius"],
+        density=_density(obj, arrays, wanted["region_source"], wanted["region_layer"]),
+        region_strength=wanted["region_strength"],
+    )
 
 
-@contextmanager
-def _bmesh_of(obj):
-    """In Edit Mode only the bmesh shows what is in a layer; in Object Mode one is made for the time being."""
-    if obj.mode == "EDIT":
-        yield bmesh.from_edit_mesh(obj.data)
-        return
-    bm = bmesh.new()
-    try:
-        bm.from_mesh(obj.data)
-        yield bm
-    finally:
-        bm.free()
-
-
-def _group(obj, bm, name):
+def _group(obj, name):
     """The weights of all vertices in a vertex group; empty where none is named."""
     if not name:
         return np.empty(0)
     group = obj.vertex_groups.get(name)
     if group is None:
         raise ValueError(report.no_layer("vertex group", name))
+    return (_weights_in_edit_mode if obj.data.is_editmode else _weights)(obj.data, group.index)
+
+
+def _weights_in_edit_mode(mesh, index):
+    """In half of the time in which the mesh's own vertices tell."""
+    bm = bmesh.from_edit_mesh(mesh)
     layer = bm.verts.layers.deform.active
     if layer is None:
         return np.zeros(len(bm.verts))
-    return np.fromiter((vertex[layer].get(group.index, 0.0) for vertex in bm.verts), float, len(bm.verts))
+    return np.fromiter((vertex[layer].get(index, 0.0) for vertex in bm.verts), float, len(bm.verts))
 
 
-def _marked(bm, marks):
+def _weights(mesh, index):
+    weights = np.zeros(len(mesh.vertices))
+    for i, vertex in enumerate(mesh.vertices):
+        for element in vertex.groups:
+            if element.group == index:
+                weights[i] = element.weight
+    return weights
+
+
+def _marked(obj, marks):
     """The edges with one of the marks, as vertex pairs."""
-    tests = {"SEAM": lambda edge: edge.seam, "SHARP": lambda edge: not edge.smooth, "CREASE": _is_creased(bm)}
-    chosen = [tests[mark] for mark in sorted(marks)]
-    pairs = [[v.index for v in edge.verts] for edge in bm.edges if any(test(edge) for test in chosen)]
-    return np.array(pairs, dtype=np.int32).reshape(-1, 2)
+    if not marks:
+        return np.empty((0, 2), dtype=np.int32)
+    readers = {
+        "SEAM": lambda: columns.read(obj, "edges", "use_seam", bool),
+        "SHARP": lambda: columns.read(obj, "edges", "use_edge_sharp", bool),
+        "CREASE": lambda: _creases(obj) > 0,
+    }
+    marked = np.logical_or.reduce([readers[mark]() for mark in sorted(marks)])
+    return columns.read(obj, "edges", "vertices", np.int32, 2)[marked]
 
 
-def _is_creased(bm):
-    layers = bm.edges.layers
-    layer = layers.crease.active if hasattr(layers, "crease") else layers.float.get("crease_edge")
-    return lambda edge: layer is not None and edge[layer] > 0
+def _creases(obj):
+    if bpy.app.version < (4, 0, 0):
+        return columns.read(obj, "edges", "crease", np.float32)
+    with columns.with_attributes(obj) as mesh:
+        attribute = mesh.attributes.get("crease_edge")
+        return columns.values(attribute.data, "value", np.float32) if attribute else np.zeros(len(mesh.edges))
 
 
-def _density(obj, bm, face_offsets, source, name):
+def _density(obj, arrays, source, name):
     """A value for each face; None where no region is asked for."""
     if source == "NONE":
         return None
     if source == "GROUP":
         if not name:
             raise ValueError(report.no_layer("vertex group", name))
-        return face_means(face_offsets, _at_corners(bm, _group(obj, bm, name)))
-    if source == "ATTRIBUTE":
-        return _face_attribute(bm, name)
-    return _brightness(bm, name, face_offsets)
+        return face_means(arrays.face_offsets, _group(obj, name)[arrays.face_vertices])
+    return (_face_attribute if source == "ATTRIBUTE" else _brightness)(obj, arrays, name)
 
 
-def _at_corners(bm, values):
-    indices = (vertex.index for face in bm.faces for vertex in face.verts)
-    return values[np.fromiter(indices, np.int32)]
+def _face_attribute(obj, _, name):
+    with columns.with_attributes(obj) as mesh:
+        layer = mesh.attributes.get(name)
+        if layer is None or layer.domain != "FACE" or layer.data_type not in _FACE_TYPES:
+            raise ValueError(report.no_layer("face attribute", name))
+        return columns.values(layer.data, "value", _FACE_TYPES[layer.data_type]).astype(float)
 
 
-def _face_attribute(bm, name):
-    for kind in ("float", "int", "bool"):
-        layer = getattr(bm.faces.layers, kind).get(name) if hasattr(bm.faces.layers, kind) else None
-        if layer is not None:
-            return np.fromiter((face[layer] for face in bm.faces), float, len(bm.faces))
-    raise ValueError(report.no_layer("face attribute", name))
-
-
-def _brightness(bm, name, face_offsets):
+def _brightness(obj, arrays, name):
     """The mean of red, green and blue, of a colour attribute on vertices or corners, in bytes or floats."""
-    for layers, elements in (
-        (bm.verts.layers, lambda face: face.verts),
-        (bm.loops.layers, lambda face: face.loops),
-    ):
-        layer = layers.color.get(name) or layers.float_color.get(name)
-        if layer is not None:
-            values = (sum(tuple(element[layer])[:3]) / 3 for face in bm.faces for element in elements(face))
-            return face_means(face_offsets, np.fromiter(values, float))
-    raise ValueError(report.no_layer("colour attribute", name))
+    with columns.with_attributes(obj) as mesh:
+        layer = mesh.color_attributes.get(name)
+        if layer is None:
+            raise ValueError(report.no_layer("colour attribute", name))
+        shown = "color_srgb" if layer.data_type == "BYTE_COLOR" else "color"  # as it is kept
+        values = columns.values(layer.data, shown, np.float32, 4)[:, :3].mean(axis=1, dtype=float)
+        at_corners = values[arrays.face_vertices] if layer.domain == "POINT" else values
+    return face_means(arrays.face_offsets, at_corners)

@@ -112,15 +112,19 @@ def _mirror_images(points, vertices, tolerance):
 
 
 def component_labels(ends, count):
-    """The lowest member of each one's connected piece: the lower root takes the other, until nothing moves."""
-    labels = np.arange(count)
-    while len(ends):
-        roots = labels[ends]
-        apart = roots[:, 0] != roots[:, 1]
-        ends, roots = ends[apart], roots[apart]
-        np.minimum.at(labels, roots.max(axis=1), roots.min(axis=1))
-        while not np.array_equal(labels, labels[labels]):
-            labels = labels[labels]
+    """The lowest member of each one's connected piece: a lower root takes a higher one, until nothing moves.
+
+    Where several would take it any of them may: the lowest of all is taken by none.
+    """
+    labels = np.arange(count, dtype=ends.dtype)
+    one, other = ends[:, 0], ends[:, 1]
+    while len(one):
+        labels[np.maximum(one, other)] = np.minimum(one, other)
+        while not np.array_equal(labels, above := labels[labels]):
+            labels = above
+        one, other = labels[one], labels[other]
+        apart = one != other
+        one, other = one[apart], other[apart]
     return labels
 
 

@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Moves whole arrays from Blender's meshes."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from functools import cached_property
 
 import bmesh
 import numpy as np
 
-from . import contours
+from . import columns, contours
 
 _EVEN = 1e-3  # scales that differ by less than this share are the same
+_AT_ONCE = 1 << 14  # triangles: what is computed from them then stays in the processor's cache
 
 
 @dataclass(frozen=True)
@@ -21,8 +23,18 @@ class MeshArrays:
     triangles: np.ndarray
     hidden_faces: np.ndarray
 
+    def keywords(self):
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
     def equal(self, other):
-        return all(map(np.array_equal, vars(self).values(), vars(other).values()))
+        return all(map(np.array_equal, self.keywords().values(), other.keywords().values()))
+
+    @cached_property
+    def signed_volume(self):
+        """What the triangles enclose where they are closed: a sixth of the sum of their determinants about a centre."""
+        axes = (self.positions - self.positions.mean(axis=0)).T.copy()
+        parts = np.split(self.triangles, range(_AT_ONCE, len(self.triangles), _AT_ONCE))
+        return sum(_determinants(axes, part.T) for part in parts) / 6
 
 
 def synchronize(obj):
@@ -33,14 +45,13 @@ def synchronize(obj):
 
 def read_arrays(obj):
     """The arrays of a synchronized mesh object."""
-    mesh = obj.data
-    mesh.calc_loop_triangles()
+    face_offsets, corners = columns.face_offsets(obj), columns.read(obj, "loops", "vertex_index", np.int32)
     return MeshArrays(
-        positions=_read(_shown_points(obj), "co", np.float32, 3).astype(np.float64),
-        face_offsets=_face_offsets(mesh),
-        face_vertices=_read(mesh.loops, "vertex_index", np.int32),
-        triangles=_read(mesh.loop_triangles, "vertices", np.int32, 3),
-        hidden_faces=np.flatnonzero(_read(mesh.polygons, "hide", bool)).astype(np.int32),
+        positions=_read_points(obj),
+        face_offsets=face_offsets,
+        face_vertices=corners,
+        triangles=columns.triangles(obj, corners),
+        hidden_faces=np.flatnonzero(columns.read(obj, "polygons", "hide", bool)).astype(np.int32),
     )
 
 
@@ -57,17 +68,14 @@ def read_selection(obj, face_mode):
 
     Edit Mode never has anything hidden selected.
     """
-    mesh = obj.data
-    corner_edges = _read(mesh.loops, "edge_index", np.int32)
-    vertices = _read(mesh.edges, "vertices", np.int32, 2)
     if face_mode:
-        selected, hidden = (_read(mesh.polygons, name, bool) for name in ("select", "hide"))
-        chosen = contours.region_border(_face_offsets(mesh), corner_edges, selected, hidden, len(mesh.edges))
-        return EdgeSelection(_with_face_left(mesh, vertices, corner_edges, chosen, selected), vertices[:0])
-    chosen = np.flatnonzero(_read(mesh.edges, "select", bool))
-    used = np.zeros(len(mesh.edges), dtype=bool)
-    used[corner_edges] = True
-    return EdgeSelection(vertices[chosen], vertices[chosen[~used[chosen]]])
+        directed = _selected_border(obj)
+        return EdgeSelection(directed, directed[:0])
+    chosen = np.flatnonzero(columns.read(obj, "edges", "select", bool))
+    edges = columns.read(obj, "edges", "vertices", np.int32, 2)[chosen]
+    used = np.zeros(len(obj.data.edges), dtype=bool)
+    used[columns.read(obj, "loops", "edge_index", np.int32)] = True
+    return EdgeSelection(edges, edges[~used[chosen]])
 
 
 @dataclass(frozen=True)
@@ -81,20 +89,20 @@ class EdgeArrays:
     hidden_faces: np.ndarray
 
 
-def read_edge_arrays(mesh):
+def read_edge_arrays(obj):
     """The arrays of a synchronized mesh."""
     return EdgeArrays(
-        edges=_read(mesh.edges, "vertices", np.int32, 2),
-        face_offsets=_face_offsets(mesh),
-        corner_vertices=_read(mesh.loops, "vertex_index", np.int32),
-        corner_edges=_read(mesh.loops, "edge_index", np.int32),
-        hidden_faces=np.flatnonzero(_read(mesh.polygons, "hide", bool)),
+        edges=columns.read(obj, "edges", "vertices", np.int32, 2),
+        face_offsets=columns.face_offsets(obj),
+        corner_vertices=columns.read(obj, "loops", "vertex_index", np.int32),
+        corner_edges=columns.read(obj, "loops", "edge_index", np.int32),
+        hidden_faces=np.flatnonzero(columns.read(obj, "polygons", "hide", bool)),
     )
 
 
-def read_seams(mesh):
+def read_seams(obj):
     """Of a synchronized mesh, which edges are seams, and which are selected."""
-    return _read(mesh.edges, "use_seam", bool), _read(mesh.edges, "select", bool)
+    return tuple(columns.read(obj, "edges", name, bool) for name in ("use_seam", "select"))
 
 
 def write_seams(mesh, old_edges, new_edges):
@@ -105,21 +113,18 @@ def write_seams(mesh, old_edges, new_edges):
     mesh.update()
 
 
-def read_labels(mesh, attribute):
+def read_labels(obj, attribute):
     """The labels of a synchronized mesh's faces: of an integer face attribute, or of the material slots (None).
 
-    None where there is no such attribute. In Edit Mode only the bmesh shows what is in one.
+    None where there is no such attribute.
     """
     if attribute is None:
-        return _read(mesh.polygons, "material_index", np.int32)
-    layer = mesh.attributes.get(attribute)
-    if layer is None or (layer.domain, layer.data_type) != ("FACE", "INT"):
-        return None
-    if not mesh.is_editmode:
-        return _read(layer.data, "value", np.int32)
-    bm = bmesh.from_edit_mesh(mesh)
-    layer = bm.faces.layers.int[attribute]
-    return np.fromiter((face[layer] for face in bm.faces), np.int32, len(bm.faces))
+        return columns.read(obj, "polygons", "material_index", np.int32)
+    with columns.with_attributes(obj) as mesh:
+        layer = mesh.attributes.get(attribute)
+        if layer is None or (layer.domain, layer.data_type) != ("FACE", "INT"):
+            return None
+        return columns.values(layer.data, "value", np.int32)
 
 
 def write_labels(mesh, attribute, faces, labels):
@@ -145,10 +150,10 @@ def write_labels(mesh, attribute, faces, labels):
 
 def with_mirror_images(obj, edges):
     """The edges with their mirror images, or None; see contours.with_mirror_images."""
-    mesh = obj.data
-    visible = _read(mesh.edges, "vertices", np.int32, 2)[~_read(mesh.edges, "hide", bool)]
-    points = _read(_shown_points(obj), "co", np.float32, 3).astype(np.float64)
-    return contours.with_mirror_images(edges, points, visible)
+    edge_vertices, hidden = (
+        columns.read(obj, "edges", *column) for column in (("vertices", np.int32, 2), ("hide", bool))
+    )
+    return contours.with_mirror_images(edges, _read_points(obj), edge_vertices[~hidden])
 
 
 def is_unevenly_scaled(obj):
@@ -157,16 +162,12 @@ def is_unevenly_scaled(obj):
     return bool(obj.matrix_world.is_negative or np.ptp(scale) > _EVEN * scale.max())
 
 
-def is_inside_out(obj):
-    """Whether a closed mesh encloses a negative volume."""
-    mesh = obj.data
-    uses = np.bincount(_read(mesh.loops, "edge_index", np.int32), minlength=len(mesh.edges))
-    if len(mesh.polygons) == 0 or np.any(uses != 2):
+def is_inside_out(obj, arrays):
+    """Whether a synchronized mesh, with its arrays, is closed and encloses a negative volume."""
+    if not arrays.signed_volume < 0:  # most often, and quickly known
         return False
-    mesh.calc_loop_triangles()
-    points = _read(_shown_points(obj), "co", np.float32, 3).astype(np.float64)
-    first, second, third = (points - points.mean(axis=0))[_read(mesh.loop_triangles, "vertices", np.int32, 3).T]
-    return np.einsum("ij,ij->", np.cross(first, second), third) < 0
+    uses = np.bincount(columns.read(obj, "loops", "edge_index", np.int32), minlength=len(obj.data.edges))
+    return bool(np.all(uses == 2))
 
 
 def find_edges(bm, pairs):
@@ -175,14 +176,23 @@ def find_edges(bm, pairs):
     return [bm.edges.get((bm.verts[a], bm.verts[b])) for a, b in pairs]
 
 
-def _with_face_left(mesh, vertices, corner_edges, chosen, selected):
-    """The chosen edges in the direction in which a selected face runs along them."""
-    corner_faces = np.repeat(np.arange(len(selected)), np.diff(_face_offsets(mesh)))
+def _selected_border(obj):
+    """The edges round the selected faces, in the direction in which a selected face runs along them."""
+    arrays, selected = read_edge_arrays(obj), columns.read(obj, "polygons", "select", bool)
+    hidden = np.zeros(len(selected), dtype=bool)
+    hidden[arrays.hidden_faces] = True
+    edges, corner_edges = arrays.edges, arrays.corner_edges
+    chosen = contours.region_border(arrays.face_offsets, corner_edges, selected, hidden, len(edges))
+    corner_faces = np.repeat(np.arange(len(selected)), np.diff(arrays.face_offsets))
     corners = np.flatnonzero(selected[corner_faces] & np.isin(corner_edges, chosen))
-    tails = np.full(len(vertices), -1)
-    tails[corner_edges[corners]] = _read(mesh.loops, "vertex_index", np.int32)[corners]
-    backward = vertices[chosen, 0] != tails[chosen]
-    return np.where(backward[:, None], vertices[chosen, ::-1], vertices[chosen])
+    tails = np.full(len(edges), -1)
+    tails[corner_edges[corners]] = arrays.corner_vertices[corners]
+    backward = edges[chosen, 0] != tails[chosen]
+    return np.where(backward[:, None], edges[chosen, ::-1], edges[chosen])
+
+
+def _read_points(obj):
+    return columns.values(_shown_points(obj), "co", np.float32, 3).astype(np.float64)
 
 
 def _shown_points(obj):
@@ -192,11 +202,7 @@ def _shown_points(obj):
     return obj.data.vertices
 
 
-def _face_offsets(mesh):
-    return np.append(_read(mesh.polygons, "loop_start", np.int32), np.int32(len(mesh.loops)))
-
-
-def _read(collection, attribute, dtype, width=1):
-    values = np.empty(len(collection) * width, dtype=dtype)
-    collection.foreach_get(attribute, values)
-    return values.reshape(-1, width) if width > 1 else values
+def _determinants(axes, corners):
+    """The sum over triangles; numpy's cross products would take ten times as long."""
+    (ax, bx, cx), (ay, by, cy), (az, bz, cz) = (axis[corners] for axis in axes)
+    return float(np.sum(ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)))

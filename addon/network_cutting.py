@@ -41,7 +41,7 @@ def cut(obj, plan, merge=0.0):
         custom_normals.keep(obj, bm, cutting.faces_cut(_results(plan)))
         given, paths = _cut(bm, plan, merge)
     mesh_access.synchronize(obj)
-    return networks.settle_cut(plan, _topology(obj.data), given, paths)
+    return networks.settle_cut(plan, _topology(obj), given, paths)
 
 
 def restore_normals(context, obj):
@@ -85,8 +85,8 @@ def _results(plan):
     return [plan.results[i] for i in plan.moved()]
 
 
-def _topology(mesh):
-    return networks.make_topology(**vars(mesh_access.read_edge_arrays(mesh)))
+def _topology(obj):
+    return networks.make_topology(**vars(mesh_access.read_edge_arrays(obj)))
 
 
 @contextmanager
@@ -125,10 +125,12 @@ def _loaded(mesh):
 
 
 def _read_copy(bm):
-    """The topology of a bmesh, and of which face each of its faces is a piece: by a mesh, whose arrays are fast."""
+    """The topology of a bmesh, and of which face each of its faces is a piece: by an object, whose arrays are fast."""
     mesh = bpy.data.meshes.new(_ORIGIN)
+    obj = bpy.data.objects.new(_ORIGIN, mesh)
     try:
         bm.to_mesh(mesh)
-        return _topology(mesh), mesh_access.read_labels(mesh, _ORIGIN)
+        return _topology(obj), mesh_access.read_labels(obj, _ORIGIN)
     finally:
+        bpy.data.objects.remove(obj)
         bpy.data.meshes.remove(mesh)

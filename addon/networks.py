@@ -19,7 +19,7 @@ class Topology:
     """The edges of a mesh, and the shown faces beside each: seen from its first vertex to its second."""
 
     edges: np.ndarray  # (n, 2) vertices
-    left: np.ndarray  # (n,) faces
+    left: np.ndarray  # (n,) faces; -1 where there is none
     right: np.ndarray
     inner: np.ndarray  # (n,) whether the edge lies between two shown faces of the same winding; a border else
     hidden: np.ndarray  # (n,) whether one of the edge's faces is hidden
@@ -36,25 +36,33 @@ class Topology:
         return set(np.unique(self.edges[self.hidden]).tolist())
 
     def find(self, pairs):
-        """The edges that join pairs of vertices, and whether each pair begins at its edge's first vertex."""
-        keys, order = self._sorted_keys
-        edges = order[np.searchsorted(keys, self._key(pairs))]
-        return edges, self.edges[edges, 0] == np.asarray(pairs)[:, 0]
+        """The edges that join pairs of vertices, and whether each pair begins at its edge's first vertex.
+
+        One call for many pairs: each looks once at all edges.
+        """
+        pairs = np.asarray(pairs)
+        near, keys = self._edges_among(pairs)
+        order = np.argsort(keys)
+        edges = near[order[np.searchsorted(keys, _keys(pairs), sorter=order)]]
+        return edges, self.edges[edges, 0] == pairs[:, 0]
 
     def has(self, pairs):
         """Whether edges join all these pairs of vertices."""
-        return bool(np.isin(self._key(pairs), self._sorted_keys[0]).all())
+        pairs = np.asarray(pairs)
+        return bool(np.isin(_keys(pairs), self._edges_among(pairs)[1]).all())
 
-    @cached_property
-    def _sorted_keys(self):
-        keys = self._key(self.edges)
-        order = np.argsort(keys, kind="stable")
-        return keys[order], order
+    def _edges_among(self, pairs):
+        """The edges between vertices of pairs, and their keys."""
+        near = np.zeros(max(self.edges.max(initial=-1), pairs.max(initial=-1)) + 1, dtype=bool)
+        near[pairs] = True
+        edges = np.flatnonzero(near[self.edges[:, 0]] & near[self.edges[:, 1]])
+        return edges, _keys(self.edges[edges])
 
-    @staticmethod
-    def _key(pairs):
-        pairs = np.asarray(pairs, dtype=np.int64)
-        return (pairs.min(axis=1) << 32) + pairs.max(axis=1)
+
+def _keys(pairs):
+    """A number for each pair of vertices, whichever comes first."""
+    pairs = pairs.astype(np.int64)
+    return (np.minimum(*pairs.T) << 32) + np.maximum(*pairs.T)
 
 
 def make_topology(edges, face_offsets, corner_vertices, corner_edges, hidden_faces):
@@ -62,7 +70,7 @@ def make_topology(edges, face_offsets, corner_vertices, corner_edges, hidden_fac
     face_count = len(face_offsets) - 1
     hidden = np.zeros(face_count, dtype=bool)
     hidden[hidden_faces] = True
-    faces = np.repeat(np.arange(face_count), np.diff(face_offsets))
+    faces = np.repeat(np.arange(face_count, dtype=np.int32), np.diff(face_offsets))
     shown, forward = ~hidden[faces], corner_vertices == edges[corner_edges, 0]
     left, right = (_face_beside(len(edges), corner_edges, faces, shown & way) for way in (forward, ~forward))
     uses = [np.bincount(corner_edges[way], minlength=len(edges)) for way in (forward, ~forward)]
@@ -72,7 +80,7 @@ def make_topology(edges, face_offsets, corner_vertices, corner_edges, hidden_fac
 
 
 def _face_beside(edge_count, corner_edges, faces, corners):
-    beside = np.full(edge_count, -1)
+    beside = np.full(edge_count, -1, dtype=np.int32)
     beside[corner_edges[corners]] = faces[corners]
     return beside
 
@@ -83,6 +91,13 @@ def regions(topology, walls):
     return contours.component_labels(
         np.column_stack([topology.left[passable], topology.right[passable]]), topology.face_count
     )
+
+
+def joined(topology, pieces, edges):
+    """The same where some edges are no walls any more; far quicker than from the beginning."""
+    edges = edges[topology.inner[edges]]
+    ends = np.column_stack([pieces[topology.left[edges]], pieces[topology.right[edges]]])
+    return contours.component_labels(ends, topology.face_count)[pieces]
 
 
 def label_borders(topology, labels):
@@ -216,14 +231,16 @@ def settle(topology, marked, chains, paths):
     What is left of a chain before is left of it after. Chains round a region that would vanish, join another one or
     fall apart stay where they are; with all chains as they were nothing is wrong, so this ends.
     """
-    before = regions(topology, marked)
-    given = [_line(topology, chain.vertices, chain.closed) for chain in chains]
-    new = [None if path is None else _line(topology, path, chain.closed) for chain, path in zip(chains, paths)]
+    closed = [chain.closed for chain in chains]
+    lines = _lines(topology, [chain.vertices for chain in chains] + list(paths), 2 * closed)
+    given, new = lines[: len(chains)], lines[len(chains) :]
+    cuts = _Cuts(topology, marked, lines)
+    before = cuts.pieces(marked)
     lost = {i: -1 for i, path in enumerate(paths) if path is not None and new[i] is None}
     while True:
         lines = [one if i in lost or new[i] is None else new[i] for i, one in enumerate(given)]
         moved = {i for i, line in enumerate(lines) if line is not given[i]}
-        region_of, suspects = _claims(topology, before, given, lines)
+        region_of, suspects = _claims(cuts, before, given, lines)
         if not moved or suspects is None:
             break
         named = next(found for found in (*suspects, dict.fromkeys(moved, -1)) if found.keys() & moved)
@@ -231,28 +248,50 @@ def settle(topology, marked, chains, paths):
     return Settlement([i in moved for i in range(len(chains))], lost, before, region_of)
 
 
-def _line(topology, vertices, closed):
+def _lines(topology, paths, closed):
+    """The line of each path; None where there is no path."""
+    pairs = [
+        np.empty((0, 2), dtype=np.int32) if path is None else contours.contour_edges(path, is_closed)
+        for path, is_closed in zip(paths, closed)
+    ]
+    ends = np.cumsum([len(some) for some in pairs])[:-1]
+    edges, forward = topology.find(np.concatenate(pairs))
+    return [_line(topology, *found) for found in zip(np.split(edges, ends), np.split(forward, ends))]
+
+
+def _line(topology, edges, forward):
     """Of a path along a border that part bounds nothing; None where nothing else is left of it."""
-    edges, forward = topology.find(contours.contour_edges(vertices, closed))
     forward, edges = forward[topology.inner[edges]], edges[topology.inner[edges]]
     left, right = topology.left[edges], topology.right[edges]
     return _Line(edges, np.where(forward, left, right), np.where(forward, right, left)) if len(edges) else None
 
 
-def _walls(topology, lines):
-    walls = np.zeros(len(topology.edges), dtype=bool)
-    for line in lines:
-        walls[line.edges] = True
-    return walls
+class _Cuts:
+    """The pieces into which marked edges and lines cut a surface, with some of them as walls or all."""
+
+    def __init__(self, topology, marked, lines):
+        self._topology = topology
+        self._all = marked | self.walls(line for line in lines if line)
+        self._smallest = regions(topology, self._all)
+
+    def walls(self, lines):
+        walls = np.zeros(len(self._topology.edges), dtype=bool)
+        for line in lines:
+            walls[line.edges] = True
+        return walls
+
+    def pieces(self, walls):
+        """The regions between these walls."""
+        return joined(self._topology, self._smallest, np.flatnonzero(self._all & ~walls))
 
 
-def _claims(topology, before, given, lines):
+def _claims(cuts, before, given, lines):
     """The region of each face by what lies beside the lines; and the suspects, None where all regions are as they were.
 
     Suspects are lines with the region that has no room left beside them, or -1: those that share edges, those that tear
     what lies along them, and those round what is torn or joined. Each list is for where the one before is empty.
     """
-    pieces = regions(topology, _walls(topology, lines))
+    pieces = cuts.pieces(cuts.walls(lines))
     rows = _claimed(before, pieces, given, lines)
     region_of = np.full(len(pieces), -1)
     region_of[rows[:, 0]] = rows[:, 1]

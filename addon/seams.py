@@ -9,15 +9,15 @@ def read_network(obj, selected_only=False):
 
     Every island of the UV map stays one island, on the same side of its seams.
     """
-    topology = networks.make_topology(**vars(mesh_access.read_edge_arrays(obj.data)))
-    seams, selected = mesh_access.read_seams(obj.data)
+    topology = networks.make_topology(**vars(mesh_access.read_edge_arrays(obj)))
+    seams, selected = mesh_access.read_seams(obj)
     chosen = seams & selected if selected_only else seams
     return networks.make_network(topology, seams, chosen)
 
 
 def only_seams_selected(obj):
     """Whether the selection of a synchronized mesh is one of seams; then it moves with them."""
-    seams, selected = mesh_access.read_seams(obj.data)
+    seams, selected = mesh_access.read_seams(obj)
     return not (selected & ~seams).any()
 
 

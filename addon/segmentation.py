@@ -28,7 +28,7 @@ def read_labelling(obj, source, attribute=""):
     if source not in SOURCES:
         raise ValueError(f"the source is {source!r}; it must be one of {', '.join(SOURCES)}")
     name = {"FACE_SETS": FACE_SETS, "MATERIAL": None, "ATTRIBUTE": attribute}[source]
-    labels = mesh_access.read_labels(obj.data, name)
+    labels = mesh_access.read_labels(obj, name)
     if labels is None:
         raise NoLabels(report.no_face_sets() if source == "FACE_SETS" else report.no_attribute(attribute))
     return Labelling(name, labels)
@@ -39,7 +39,7 @@ def read_network(obj, labelling):
 
     A region is one connected piece of one label.
     """
-    topology = networks.make_topology(**vars(mesh_access.read_edge_arrays(obj.data)))
+    topology = networks.make_topology(**vars(mesh_access.read_edge_arrays(obj)))
     return networks.make_network(topology, networks.label_borders(topology, labelling.labels))
 
 
@@ -51,7 +51,7 @@ def new_labels(labelling, plan):
 def write(obj, labelling, plan):
     """Labels the faces anew; where contours were cut in, the pieces of a face come with the label of the whole."""
     if len(labelling.labels) != plan.topology.face_count:
-        labelling = replace(labelling, labels=mesh_access.read_labels(obj.data, labelling.attribute))
+        labelling = replace(labelling, labels=mesh_access.read_labels(obj, labelling.attribute))
     labels = new_labels(labelling, plan)
     changed = np.flatnonzero(labels != labelling.labels)
     mesh_access.write_labels(obj.data, labelling.attribute, changed, labels[changed])

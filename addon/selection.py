@@ -107,7 +107,7 @@ def read_part(obj, face_mode, close=False):
 def note_warnings(part):
     """What the user should know about how the object is measured, where anything was."""
     if part.done():
-        part.warnings = _warnings(part.obj) + [report.not_mirrored(part.obj.name)] * part.asymmetric
+        part.warnings = _warnings(part) + [report.not_mirrored(part.obj.name)] * part.asymmetric
 
 
 def _outcomes(place, edges, face_mode):
@@ -123,11 +123,11 @@ def _outcomes(place, edges, face_mode):
     return [report.Outcome.of(place, vertices, closed) for vertices, closed in given] + branching
 
 
-def _warnings(obj):
-    warnings = []
+def _warnings(part):
+    obj, warnings = part.obj, []
     if mesh_access.is_unevenly_scaled(obj):
         warnings.append(report.uneven_scale(obj.name))
-    if mesh_access.is_inside_out(obj):
+    if mesh_access.is_inside_out(obj, part.arrays):
         warnings.append(report.inside_out(obj.name))
     return warnings
 

@@ -135,7 +135,7 @@ def test_each_side_of_a_chain_has_one_label(mesh, labels, hidden):
     left_face = {pair: i for i, face in enumerate(mesh.faces) for pair in zip(face, face[1:] + face[:1])}
     for chain in networks.find_chains(topology, networks.label_borders(topology, labels)):
         pairs = [tuple(pair) for pair in contours.contour_edges(chain.vertices, chain.closed).tolist()]
-        line = networks._line(topology, chain.vertices, chain.closed)
+        line = networks._lines(topology, [chain.vertices], [chain.closed])[0]
         assert line.left.tolist() == [left_face[pair] for pair in pairs]
         assert line.right.tolist() == [left_face[pair[::-1]] for pair in pairs]
         assert len(set(labels[line.left])) == len(set(labels[line.right])) == 1

@@ -7,7 +7,6 @@ xvfb-run -a -s "-screen 0 1600x1000x24" env LIBGL_ALWAYS_SOFTWARE=1 blender --fa
 
 import os
 import sys
-import time
 import traceback
 from pathlib import Path
 
@@ -17,49 +16,12 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1]))
 bpy.ops.preferences.addon_enable(module="minimum_ratio_contours")
 
+from bench_meshes import GROOVE, grooved_tube, milliseconds, square  # noqa: E402
 from made_meshes import edit, pairs, select  # noqa: E402
 from minimum_ratio_contours import adjust_state, api, native, overlay, parameters, preview, selection  # noqa: E402
 
-COLUMNS, ROWS, GROOVE = 1000, 500, 250
 LIMIT = 1000  # faces of a band
 STEPS = ["WIDER", "SHORTER", "NARROWER", "LONGER"] * 25
-
-
-def grooved_tube():
-    """A million triangles: a tube with a groove round its middle."""
-    angles, rows = 2 * np.pi * np.arange(COLUMNS) / COLUMNS, np.arange(ROWS + 1)
-    radii = 1 - 0.2 * np.exp(-(((rows - GROOVE) / 5.0) ** 2) / 2)
-    points = np.stack(
-        [np.outer(radii, np.cos(angles)), np.outer(radii, np.sin(angles)), np.outer(0.006 * rows, np.ones(COLUMNS))], -1
-    )
-    low = np.arange(ROWS * COLUMNS).reshape(ROWS, COLUMNS)
-    beside = np.roll(low, -1, axis=1)
-    triangles = np.stack([low, beside, beside + COLUMNS, low, beside + COLUMNS, low + COLUMNS], -1).reshape(-1, 3)
-    mesh = bpy.data.meshes.new("Tube")
-    mesh.vertices.add(len(low.ravel()) + COLUMNS)
-    mesh.vertices.foreach_set("co", points.astype(np.float32).ravel())
-    mesh.loops.add(triangles.size)
-    mesh.loops.foreach_set("vertex_index", triangles.astype(np.int32).ravel())
-    mesh.polygons.add(len(triangles))
-    mesh.polygons.foreach_set("loop_start", np.arange(0, triangles.size, 3, dtype=np.int32))
-    mesh.polygons.foreach_set("loop_total", np.full(len(triangles), 3, dtype=np.int32))
-    mesh.update(calc_edges=True)
-    obj = bpy.data.objects.new("Tube", mesh)
-    bpy.context.scene.collection.objects.link(obj)
-    return obj
-
-
-def square(row, column, size):
-    """A closed loop of rows and columns."""
-    steps = [(0, 1)] * size + [(1, 0)] * size + [(0, -1)] * size + [(-1, 0)] * size
-    corners = np.cumsum([(row, column), *steps[:-1]], axis=0)
-    return [int(r * COLUMNS + c) for r, c in corners]
-
-
-def milliseconds(call, *arguments, **keywords):
-    begin = time.perf_counter()
-    result = call(*arguments, **keywords)
-    return 1e3 * (time.perf_counter() - begin), result
 
 
 def begin(obj):

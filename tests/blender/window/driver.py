@@ -60,6 +60,12 @@ class Window:
                 self._event(key, "RELEASE", **modifiers)
             yield from self.wait()
 
+    def turn(self, key, times):
+        """Many events at once, as they pile up while Blender is busy."""
+        for _ in range(times):
+            self._event(key, "PRESS")
+        yield from self.wait()
+
     def drag(self, button, x, y):
         self._event(button, "PRESS")
         for _ in range(2):

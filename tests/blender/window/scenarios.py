@@ -68,6 +68,31 @@ def test_the_wheel_widens_the_band_and_one_undo_takes_all_back(window):
     assert everything(now()) == before
 
 
+def test_what_piles_up_is_searched_once(window):
+    cylinder()
+    window.operator("adjust_contour", width=1, reach=0.0)
+    widths, search = [], Preview.search
+
+    def counted(preview, state):
+        widths.append(state.settings["width"])
+        search(preview, state)
+
+    Preview.search = counted
+    try:
+        yield from window.turn("WHEELUPMOUSE", 12)
+        yield from window.turn("WHEELDOWNMOUSE", 7)
+        assert widths == [13, 6]
+        yield from window.wait()
+        assert widths == [13, 6]  # nothing goes on by itself
+        for key in ("WHEELUPMOUSE", "WHEELDOWNMOUSE", "RET"):  # what is confirmed has been searched
+            window.turn(key, 1).send(None)
+        yield from window.wait()
+    finally:
+        Preview.search = search
+    assert widths == [13, 6, 6]
+    assert flagged(now(), "select") == edge_set(ring(GROOVE))
+
+
 def test_a_narrow_band_does_not_reach_the_groove(window):
     cylinder()
     window.operator("adjust_contour", width=6, reach=0.0)
