@@ -157,7 +157,7 @@ Result Optimization::finish() {
                          (result_.reason.empty() ? "no iteration was asked for" : result_.reason));
     if (searched_ && featureless()) explain_featureless();
     // What was won along mesh edges may be lost with the Steiner points of a last phase that found nothing.
-    const bool lost = result_.status == Status::improved && below(result_.initial_objective, result_.objective);
+    const bool lost = result_.status == Status::improved && !below(result_.objective, result_.initial_objective);
     if (result_.status == Status::improved && (lost || (searched_ && featureless()))) keep_given();
     if (lost) because(Reason::none_refined, "no better contour was found across faces");
     return result_;
