@@ -9,7 +9,7 @@ from bpy_extras import view3d_utils
 
 from . import adjust_state, native, panels, report, selection
 from .adjust_state import CANCEL, CONFIRM, IGNORE, PASS, PIN, State
-from .operators import ContourConstraints, ContourOutput, ContourSettings, InEditMode, properties_of
+from .operators import ContourConstraints, ContourOutput, ContourSettings, Folds, InEditMode, properties_of
 from .preview import Preview
 
 
@@ -32,7 +32,7 @@ def _skipped(kind):
     return kind.keywords.get("options", set()) | {"SKIP_SAVE"}
 
 
-class MESH_OT_adjust_contour(ContourSettings, ContourConstraints, ContourOutput, InEditMode, bpy.types.Operator):
+class MESH_OT_adjust_contour(ContourSettings, ContourConstraints, ContourOutput, Folds, InEditMode, bpy.types.Operator):
     """Show band and contour while the wheel changes the width; clicks pin vertices that the contour must pass"""
 
     bl_idname = "mesh.adjust_contour"
@@ -106,11 +106,7 @@ class MESH_OT_adjust_contour(ContourSettings, ContourConstraints, ContourOutput,
             raise
 
     def draw(self, context):
-        panels.draw_settings(self.layout, self)
-        self.layout.separator()
-        panels.draw_more_settings(self.layout, self)
-        self.layout.separator()
-        panels.draw_constraints(self.layout, self, context.object)
+        panels.draw_redo(self.layout, self, context.object)
 
     def _begin(self, context):
         """Reads selection and meshes, once; says why where there is nothing to adjust."""

@@ -51,6 +51,7 @@ def _draw_uv(self, context):
 def _draw_mesh(self, context):
     self.layout.separator()
     self.layout.operator("mesh.show_curvature")
+    self.layout.operator("mesh.show_curvature_directions")
 
 
 _ENTRIES = (

@@ -147,6 +147,17 @@ def curvature_shown(count, problems, values, colors):
     return ". ".join(sentences)
 
 
+def directions_shown(count, problems):
+    sentences = []
+    if count:
+        sentences = [f"Directions at {count} concave vertices"]
+    elif not problems:
+        sentences = ["Nothing is notably concave here: there are no directions to show"]
+    if problems:
+        sentences.append("Not shown: " + shortened(problems, "; "))
+    return ". ".join(sentences)
+
+
 def name_taken(name):
     return f"another kind of attribute is named '{name}': rename or remove it"
 
