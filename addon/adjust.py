@@ -139,18 +139,22 @@ class MESH_OT_adjust_contour(ContourSettings, ContourConstraints, ContourOutput,
 
     def _step(self, state):
         """Goes on with other settings or pins; one command changes one thing, and the output needs no search."""
-        searched = state.output != self._state.output
+        searched, before, faces = state.output != self._state.output, self._state, self._faces()
         self._state = state
         if not searched:
             self._show()
-        self._say()
+        self._say(held=adjust_state.is_wider(state, before) and self._faces() == faces)
+
+    def _faces(self):
+        """How many faces are searched."""
+        return sum(len(band) for _, preview in self._previews for band in preview.bands)
 
     def _show(self):
         self._search()
         self._overlay.show([(obj.matrix_world.copy(), preview.shapes(self._state)) for obj, preview in self._previews])
 
-    def _say(self):
-        self._area.header_text_set(adjust_state.header(self._state, self._output_name(), self._found()))
+    def _say(self, held=False):
+        self._area.header_text_set(adjust_state.header(self._state, self._output_name(), self._found(), held))
 
     def _found(self):
         outcomes = [outcome for _, preview in self._previews for outcome in preview.outcomes]

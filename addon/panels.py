@@ -255,25 +255,29 @@ def _remembered(context):
 def _draw_result(layout, context, last):
     _draw_text(layout, context, last.message, "INFO")
     for numbers in last.contours[:_SHOWN]:
-        _draw_numbers(layout.box(), context, numbers, with_reason=len(last.contours) > 1)
+        _draw_numbers(layout.box(), context, numbers, several=len(last.contours) > 1)
     if len(last.contours) > _SHOWN:
         layout.label(text=f"and {len(last.contours) - _SHOWN} more")
 
 
-def _draw_numbers(box, context, numbers, with_reason):
-    """The message gives the reason too, but not of which of several contours."""
+def _draw_numbers(box, context, numbers, several):
+    """Of one contour all numbers. Of several the reasons, which the message gives too, but not of which of them."""
     icon = "CHECKMARK" if numbers.status == "improved" else "DOT"
+    box = box.column(align=True)
     _draw_text(box, context, f"{numbers.place}: {numbers.status}", icon)
-    if with_reason and numbers.reason:
-        _draw_text(box, context, numbers.reason, "BLANK1")
+    if several:
+        _draw_text(box, context, numbers.reason or numbers.salience, "BLANK1")
+        return
     units = context.scene.unit_settings
     length = bpy.utils.units.to_string(units.system, "LENGTH", numbers.length * units.scale_length, precision=3)
-    column = box.column(align=True)
-    if numbers.salience:
-        column.label(text=numbers.salience)
-    column.label(text=f"Ratio {numbers.initial_ratio:.3g} to {numbers.ratio:.3g}")
-    column.label(text=f"Length {length}")
-    column.label(text=f"{numbers.faces} faces, {numbers.milliseconds:.1f} ms")
+    lines = (
+        numbers.salience,
+        f"Ratio {numbers.initial_ratio:.3g} to {numbers.ratio:.3g}",
+        f"Length {length}",
+        f"{numbers.faces} faces, {numbers.milliseconds:.1f} ms",
+    )
+    for line in filter(None, lines):
+        box.label(text=line, icon="BLANK1")
 
 
 def _draw_text(layout, context, text, icon):
@@ -300,9 +304,9 @@ _CLASSES = (
     ContourNumbers,
     LastResult,
     VIEW3D_PT_minimum_ratio_contours,
-    VIEW3D_PT_minimum_ratio_contours_result,
     VIEW3D_PT_minimum_ratio_contours_networks,
     VIEW3D_PT_minimum_ratio_contours_curvature,
+    VIEW3D_PT_minimum_ratio_contours_result,
     VIEW3D_PT_minimum_ratio_contours_constraints,
     VIEW3D_PT_minimum_ratio_contours_more,
 )

@@ -47,7 +47,8 @@ def summary(outcomes, notes=()):
     results = [outcome.result for outcome in outcomes if outcome.result is not None and not outcome.problem]
     sentences = []
     if results:
-        sentences = [_statuses(results), _ratios(results)]
+        moved = any(result.ratio != result.initial_ratio for result in results)
+        sentences = [_statuses(results), _ratios(results)] if moved else [_statuses(results)]
     left = [outcome for outcome in outcomes if outcome.problem]
     if left:
         sentences.append(_left(outcomes, left))
