@@ -158,7 +158,7 @@ class VIEW3D_PT_minimum_ratio_contours(bpy.types.Panel):
         column = layout.column(align=True)
         column.scale_y = 1.3
         column.operator(OPERATOR, icon="MOD_EDGESPLIT")
-        column.operator("mesh.adjust_contour", icon="RESTRICT_VIEW_OFF")
+        column.operator("mesh.adjust_contour", icon="HIDE_OFF")
         # The panel's settings are the operator's own: those of the last run, which the next run from the panel takes.
         draw_settings(layout.column(), _remembered(context))
 
@@ -237,8 +237,9 @@ class VIEW3D_PT_minimum_ratio_contours_curvature(bpy.types.Panel):
         column = self.layout.column(align=True)
         column.operator("mesh.show_curvature", text="Show Colors", icon="COLOR")
         is_shown = show_directions.is_shown()
-        icon = "HIDE_OFF" if is_shown else "HIDE_ON"
-        column.operator("mesh.show_curvature_directions", text="Directions", icon=icon, depress=is_shown)
+        column.operator(
+            "mesh.show_curvature_directions", text="Directions", icon="ORIENTATION_NORMAL", depress=is_shown
+        )
 
 
 def _draw_network_operator(layout, context, name, icon):

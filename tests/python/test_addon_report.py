@@ -29,9 +29,9 @@ STAYED = done("unchanged", -2, -2, "nothing better")
     ("outcomes", "expected"),
     [
         ([done()], "1 contour improved. Ratio 0.5 to -1"),
-        ([STAYED], "1 contour unchanged (nothing better). Ratio -2 to -2"),
+        ([STAYED], "1 contour unchanged (nothing better)"),
         ([done(), STAYED, done()], "2 contours improved, 1 unchanged (nothing better). Mean ratio -0.3333 to -1.333"),
-        ([STAYED, STAYED], "2 contours unchanged (nothing better). Mean ratio -2 to -2"),
+        ([STAYED, STAYED], "2 contours unchanged (nothing better)"),
         ([done(), left("it branches")], "1 contour improved. Ratio 0.5 to -1. Left as it is: it branches"),
         (
             [done(), left("it branches", "Foot"), left("it is open")],

@@ -85,7 +85,6 @@ class Window:
         self._event("C", "PRESS", ctrl=True)
         self._event("C", "RELEASE", ctrl=True)
         yield
-        yield
         return manager.clipboard
 
     def region_of(self, kind):
@@ -95,7 +94,9 @@ class Window:
         """Moves the mouse down a region until it is over a button with this command or value; gives its height."""
         region = self.region_of(kind)
         for y in range(region.y + region.height - _ROW, region.y, -_ROW):
-            yield from self.move_over(region.x + share * region.width, y)
+            self.mouse = int(region.x + share * region.width), y
+            self._event("MOUSEMOVE", "NOTHING")
+            yield
             if text in (yield from self.copied()):
                 return y
         raise AssertionError(f"no button with {text} in the region {kind}")
