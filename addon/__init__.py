@@ -14,9 +14,11 @@ bl_info = {
 
 def _modules():
     # Imported here, not above: the modules that do without bpy can then be imported outside Blender.
-    from . import adjust, api, menus, network_operators, operators, panels, preferences, presets, show_curvature
+    from . import adjust, api, menus, network_operators, operators, panels, preferences, presets
+    from . import show_curvature as colors
+    from . import show_directions as directions
 
-    return api, operators, adjust, network_operators, show_curvature, panels, preferences, presets, menus
+    return api, operators, adjust, network_operators, colors, directions, panels, preferences, presets, menus
 
 
 def register():

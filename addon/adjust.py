@@ -9,7 +9,7 @@ from bpy_extras import view3d_utils
 
 from . import adjust_state, native, panels, report, selection
 from .adjust_state import CANCEL, CONFIRM, IGNORE, PASS, PIN, State
-from .operators import ContourConstraints, ContourOutput, ContourSettings, InEditMode, properties_of
+from .operators import ContourConstraints, ContourOutput, ContourSettings, Folds, InEditMode, properties_of
 from .preview import Preview
 
 
@@ -33,7 +33,7 @@ def _skipped(kind):
     return kind.keywords.get("options", set()) | {"SKIP_SAVE"}
 
 
-class MESH_OT_adjust_contour(ContourSettings, ContourConstraints, ContourOutput, InEditMode, bpy.types.Operator):
+class MESH_OT_adjust_contour(ContourSettings, ContourConstraints, ContourOutput, Folds, InEditMode, bpy.types.Operator):
     """Show band and contour while the wheel changes the width; clicks pin vertices that the contour must pass"""
 
     bl_idname = "mesh.adjust_contour"
@@ -110,11 +110,7 @@ class MESH_OT_adjust_contour(ContourSettings, ContourConstraints, ContourOutput,
             raise
 
     def draw(self, context):
-        panels.draw_settings(self.layout, self)
-        self.layout.separator()
-        panels.draw_more_settings(self.layout, self)
-        self.layout.separator()
-        panels.draw_constraints(self.layout, self, context.object)
+        panels.draw_redo(self.layout, self, context.object)
 
     def _begin(self, context):
         """Reads selection and meshes, once; says why where there is nothing to adjust."""
@@ -160,20 +156,26 @@ class MESH_OT_adjust_contour(ContourSettings, ContourConstraints, ContourOutput,
         """Searches where the settings have changed since the last search."""
         if self._timer is not None:
             self._stop_timer(context)
+            before, faces = self._shown, self._faces()
             self._show()
-            self._say()
+            self._say(held=adjust_state.is_wider(self._state, before) and self._faces() == faces)
 
     def _stop_timer(self, context):
         if self._timer is not None:
             context.window_manager.event_timer_remove(self._timer)
             self._timer = None
 
+    def _faces(self):
+        """How many faces are searched."""
+        return sum(len(band) for _, preview in self._previews for band in preview.bands)
+
     def _show(self):
         self._search()
+        self._shown = self._state
         self._overlay.show([(obj.matrix_world.copy(), preview.shapes(self._state)) for obj, preview in self._previews])
 
-    def _say(self):
-        self._area.header_text_set(adjust_state.header(self._state, self._output_name(), self._found()))
+    def _say(self, held=False):
+        self._area.header_text_set(adjust_state.header(self._state, self._output_name(), self._found(), held))
 
     def _found(self):
         outcomes = [outcome for _, preview in self._previews for outcome in preview.outcomes]

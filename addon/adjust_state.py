@@ -126,12 +126,22 @@ _CHANGES = {
 }
 
 
-def header(state, output_name, outcome):
-    """The line over the view: the settings that the keys change, and what was found with them."""
+def is_wider(state, before):
+    """Whether more rings were asked for, while the reach may hold them."""
+    now, then = state.settings, before.settings
+    return now["width"] > then["width"] and now["reach"] > 0 and not now["whole_surface"]
+
+
+def header(state, output_name, outcome, held=False):
+    """The line over the view: the settings that the keys change, and what was found with them.
+
+    held: the reach, not the width, bounds the band, so that a greater width changes nothing.
+    """
     settings = state.settings
     width = "Whole Surface" if settings["whole_surface"] else f"Width: {settings['width']}"
     if not settings["whole_surface"]:
         width += f", Reach: {settings['reach']:.2f}" if settings["reach"] > 0 else ", Reach: off"
+        width += " holds the band (E: off)" if held else ""
     pins = f", Pins: {len(state.pins)}" if state.pins else ""
     return (
         f"{width}, Refinement: {settings['refinement']}, Short: {settings['length_bias']:.1f}, "

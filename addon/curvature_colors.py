@@ -12,10 +12,15 @@ _COLORS = np.array(((10, 70, 230), (100, 170, 245), (247, 247, 247), (244, 165, 
 def colors(curvatures, quantile):
     """(n, 4) linear colours; from this quantile of their sizes on, curvatures have the full colour."""
     curvatures = np.nan_to_num(np.asarray(curvatures, dtype=float))
-    sizes = np.abs(curvatures[curvatures != 0])
-    full = np.quantile(sizes, quantile) if len(sizes) else 1.0
-    shades = np.column_stack([np.interp(curvatures / full, _PLACES, channel) for channel in _COLORS.T])
+    shares = curvatures / full_size(curvatures, quantile)
+    shades = np.column_stack([np.interp(shares, _PLACES, channel) for channel in _COLORS.T])
     return np.column_stack([_linear(shades), np.ones(len(shades))])
+
+
+def full_size(curvatures, quantile):
+    """The size of curvature that has the full colour."""
+    sizes = np.abs(curvatures[curvatures != 0])
+    return np.quantile(sizes, quantile) if len(sizes) else 1.0
 
 
 def _linear(srgb):

@@ -4,6 +4,7 @@
 import bpy
 
 OPERATOR = "mesh.optimize_contour"
+_INVOKED = "INVOKE_REGION_WIN"
 
 
 class VIEW3D_MT_minimum_ratio_contours(bpy.types.Menu):
@@ -13,6 +14,7 @@ class VIEW3D_MT_minimum_ratio_contours(bpy.types.Menu):
     bl_label = "Optimize Contour and"
 
     def draw(self, context):
+        self.layout.operator_context = _INVOKED
         for output, text in (
             ("SEAM", "Mark Seam"),
             ("SHARP", "Mark Sharp"),
@@ -23,34 +25,41 @@ class VIEW3D_MT_minimum_ratio_contours(bpy.types.Menu):
             self.layout.operator(OPERATOR, text=text).output = output
 
 
+def _separate(layout):
+    """What follows is invoked: menus opened by a key would execute it, without progress, and nothing live."""
+    layout.separator()
+    layout.operator_context = _INVOKED
+
+
 def _draw_edge(self, context):
-    self.layout.separator()
+    _separate(self.layout)
     self.layout.operator(OPERATOR)
     self.layout.operator("mesh.adjust_contour")
     self.layout.menu(VIEW3D_MT_minimum_ratio_contours.bl_idname)
 
 
 def _draw_context(self, context):
-    self.layout.separator()
+    _separate(self.layout)
     self.layout.operator(OPERATOR)
     self.layout.operator("mesh.adjust_contour")
 
 
 def _draw_face(self, context):
-    self.layout.separator()
+    _separate(self.layout)
     self.layout.operator(OPERATOR, text="Optimize Contour of Faces")
     self.layout.operator("mesh.optimize_segmentation")
 
 
 def _draw_uv(self, context):
-    self.layout.separator()
+    _separate(self.layout)
     self.layout.operator(OPERATOR, text="Optimize Contour to Seam").output = "SEAM"
     self.layout.operator("mesh.optimize_seams")
 
 
 def _draw_mesh(self, context):
-    self.layout.separator()
+    _separate(self.layout)
     self.layout.operator("mesh.show_curvature")
+    self.layout.operator("mesh.show_curvature_directions")
 
 
 _ENTRIES = (

@@ -123,6 +123,15 @@ class ContourOutput(CutSettings):
         return self.tell(context, level, message, outcomes)
 
 
+class Folds:
+    """What is unfolded in the redo panel, which Blender cannot divide into panels."""
+
+    show_more: BoolProperty(
+        name="More Settings", description="Show the settings that are seldom changed", options={"HIDDEN"}
+    )
+    show_constraints: BoolProperty(name="Constraints", description="Show what the contours keep to", options={"HIDDEN"})
+
+
 class InEditMode:
     """Where the operators can be called, with the reason where they cannot, and how they talk to the user."""
 
@@ -164,7 +173,7 @@ class SearchInEditMode(InEditMode, jobs.SearchOperator):
 
 
 class MESH_OT_optimize_contour(
-    ContourSettings, ContourConstraints, ContourOutput, SearchInEditMode, bpy.types.Operator
+    ContourSettings, ContourConstraints, ContourOutput, Folds, SearchInEditMode, bpy.types.Operator
 ):
     """Move each selected loop or chain to the part boundary nearby, where the surface is most concave for its length"""
 
@@ -187,11 +196,7 @@ class MESH_OT_optimize_contour(
         return [(part.obj, part.surface) for part in work[0] if part.surface]
 
     def draw(self, context):
-        panels.draw_settings(self.layout, self)
-        self.layout.separator()
-        panels.draw_more_settings(self.layout, self)
-        self.layout.separator()
-        panels.draw_constraints(self.layout, self, context.object)
+        panels.draw_redo(self.layout, self, context.object)
 
 
 def properties_of(*mixins):

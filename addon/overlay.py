@@ -9,18 +9,21 @@ from gpu_extras.batch import batch_for_shader
 _OFFSET, _FLAT_OFFSET = 0.0025, 1e-5  # towards the eye, in perspective and without
 _BAND_ALPHA = 0.25
 _GIVEN_WIDTH, _FOUND_WIDTH, _PIN_SIZE = 2.0, 4.0, 10.0  # in points
+_DIRECTION_WIDTH = 1.5
+_DIRECTION_COLOR = (1.0, 1.0, 0.35, 1.0)  # tells itself from the blue of valleys and from marks on edges
 
 
 class Overlay:
     """What is drawn of some objects until `remove` is called."""
 
-    def __init__(self):
-        self._items = []  # (matrix, Shapes)
+    def __init__(self, kind=None):
+        self._kind = kind or _Batches
+        self._items = []  # (matrix, what this kind of batches is made from)
         self._batches = None
         self._handle = bpy.types.SpaceView3D.draw_handler_add(self._draw, (), "WINDOW", "POST_VIEW")
 
     def show(self, items):
-        """Draws these (matrix, Shapes) from now on."""
+        """Draws these from now on: pairs of a matrix and Shapes, or what else the kind takes."""
         self._items, self._batches = items, None
         _redraw()
 
@@ -33,7 +36,7 @@ class Overlay:
     def _draw(self):
         context = bpy.context
         if self._batches is None:
-            self._batches = [(matrix, _Batches(shapes)) for matrix, shapes in self._items]
+            self._batches = [(matrix, self._kind(shapes)) for matrix, shapes in self._items]
         projection = _towards_eye(gpu.matrix.get_projection_matrix(), context.region_data)
         gpu.state.depth_test_set("NONE" if _seen_through(context.space_data.shading) else "LESS_EQUAL")
         gpu.state.blend_set("ALPHA")
@@ -64,8 +67,8 @@ class _Batches:
         theme = context.preferences.themes[0].view_3d
         scale = context.preferences.system.pixel_size
         self._draw_band((*theme.face_select[:3], _BAND_ALPHA))
-        self._draw_lines(context, self._given, (*theme.transform[:3], 1.0), _GIVEN_WIDTH * scale)
-        self._draw_lines(context, self._found, (*theme.edge_select[:3], 1.0), _FOUND_WIDTH * scale)
+        _draw_lines(context, self._line, self._given, (*theme.transform[:3], 1.0), _GIVEN_WIDTH * scale)
+        _draw_lines(context, self._line, self._found, (*theme.edge_select[:3], 1.0), _FOUND_WIDTH * scale)
         self._draw_pins((*theme.editmesh_active[:3], 1.0), _PIN_SIZE * scale)
 
     def _draw_band(self, color):
@@ -74,13 +77,6 @@ class _Batches:
             self._fill.uniform_float("color", color)
             self._band.draw(self._fill)
 
-    def _draw_lines(self, context, batch, color, width):
-        if batch:
-            self._line.uniform_float("viewportSize", (context.region.width, context.region.height))
-            self._line.uniform_float("lineWidth", width)
-            self._line.uniform_float("color", color)
-            batch.draw(self._line)
-
     def _draw_pins(self, color, size):
         if self._pins:
             gpu.state.point_size_set(size)
@@ -88,6 +84,26 @@ class _Batches:
             if bpy.app.version >= (5, 0, 0):
                 self._point.uniform_float("size", size)
             self._pins.draw(self._point)
+
+
+class Directions:
+    """The directions of one object, as the ends of lines, on the graphics card."""
+
+    def __init__(self, ends):
+        self._line = _shader("POLYLINE_UNIFORM_COLOR")
+        self._batch = _batch(self._line, "LINES", ends)
+
+    def draw(self, context):
+        width = _DIRECTION_WIDTH * context.preferences.system.pixel_size
+        _draw_lines(context, self._line, self._batch, _DIRECTION_COLOR, width)
+
+
+def _draw_lines(context, shader, batch, color, width):
+    if batch:
+        shader.uniform_float("viewportSize", (context.region.width, context.region.height))
+        shader.uniform_float("lineWidth", width)
+        shader.uniform_float("color", color)
+        batch.draw(shader)
 
 
 def _shader(name):

@@ -6,8 +6,8 @@ import textwrap
 import bpy
 from bpy.props import CollectionProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
-from . import native, report
-from .parameters import CONSTRAINTS, MAIN, MORE
+from . import native, report, show_directions
+from .parameters import CONSTRAINTS, MAIN, MORE, NETWORK
 
 OPERATOR = "mesh.optimize_contour"
 _SHOWN = 8  # contours with their numbers in the panel
@@ -46,9 +46,27 @@ def show_result(context, message, outcomes):
 
 def remember(context, values):
     """Lets the operator's next run from the panel or a menu start from these values."""
-    settings = context.window_manager.operator_properties_last(OPERATOR)
+    settings = _remembered(context)
     for name, value in values.items():
         setattr(settings, name, value)
+
+
+def draw_redo(layout, operator, obj):
+    """All settings of an operator on selected contours; the many that are seldom changed unfold."""
+    draw_settings(layout, operator)
+    if _unfolded(layout, operator, "show_more"):
+        draw_more_settings(layout, operator)
+    if _unfolded(layout, operator, "show_constraints"):
+        draw_constraints(layout, operator, obj)
+
+
+def _unfolded(layout, operator, name):
+    shown = getattr(operator, name)
+    row = layout.row()
+    row.use_property_split = False
+    row.alignment = "LEFT"
+    row.prop(operator, name, icon="DOWNARROW_HLT" if shown else "RIGHTARROW", emboss=False)
+    return shown
 
 
 def draw_settings(layout, settings):
@@ -56,24 +74,24 @@ def draw_settings(layout, settings):
     layout.use_property_split = True
     layout.use_property_decorate = False
     layout.prop(settings, "output")
-    _draw_properties(layout, settings, ("close",))
     row = layout.row()
     row.enabled = settings.output in ("SEAM", "SHARP")
     row.prop(settings, "keep_old")
     row = layout.row()
     row.enabled = settings.output in ("RIP", "SEPARATE")
     row.prop(settings, "fill_holes")
+    _draw_properties(layout, settings, ("close",))
     draw_search_settings(layout, settings)
 
 
 def draw_search_settings(layout, settings):
     """Those that say where and how is searched."""
-    row = layout.row()
-    row.enabled = not settings.whole_surface
-    row.prop(settings, "width")
-    row = layout.row()
-    row.use_property_split = False  # beside a split the name would not fit into a sidebar of the usual width
-    row.prop(settings, "whole_surface")
+    column = layout.column()
+    column.enabled = not settings.whole_surface
+    column.prop(settings, "width")
+    column.prop(settings, "reach")
+    row = layout.row(heading="Whole")  # the name as one would not fit into a sidebar of the usual width
+    row.prop(settings, "whole_surface", text="Surface")
     _draw_properties(layout, settings, MAIN)
 
 
@@ -137,11 +155,12 @@ class VIEW3D_PT_minimum_ratio_contours(bpy.types.Panel):
         if problem:
             _draw_text(layout, context, problem, "ERROR")
             return
+        column = layout.column(align=True)
+        column.scale_y = 1.3
+        column.operator(OPERATOR, icon="MOD_EDGESPLIT")
+        column.operator("mesh.adjust_contour", icon="HIDE_OFF")
         # The panel's settings are the operator's own: those of the last run, which the next run from the panel takes.
-        draw_settings(layout.column(), context.window_manager.operator_properties_last(OPERATOR))
-        layout.operator(OPERATOR, icon="MOD_EDGESPLIT")
-        layout.operator("mesh.adjust_contour", icon="MODIFIER")
-        layout.operator("mesh.show_curvature", icon="COLOR")
+        draw_settings(layout.column(), _remembered(context))
 
     def draw_header_preset(self, context):
         bpy.types.VIEW3D_PT_minimum_ratio_contours_presets.draw_panel_header(self.layout)
@@ -171,7 +190,7 @@ class VIEW3D_PT_minimum_ratio_contours_more(bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
-        draw_more_settings(self.layout.column(), context.window_manager.operator_properties_last(OPERATOR))
+        draw_more_settings(self.layout.column(), _remembered(context))
 
 
 class VIEW3D_PT_minimum_ratio_contours_constraints(bpy.types.Panel):
@@ -183,32 +202,83 @@ class VIEW3D_PT_minimum_ratio_contours_constraints(bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
-        settings = context.window_manager.operator_properties_last(OPERATOR)
-        draw_constraints(self.layout.column(), settings, context.object)
+        draw_constraints(self.layout.column(), _remembered(context), context.object)
+
+
+class VIEW3D_PT_minimum_ratio_contours_networks(bpy.types.Panel):
+    bl_label = "Whole Mesh"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Contours"
+    bl_parent_id = "VIEW3D_PT_minimum_ratio_contours"
+
+    def draw(self, context):
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        seams = context.window_manager.operator_properties_last("mesh.optimize_seams")
+        regions = context.window_manager.operator_properties_last("mesh.optimize_segmentation")
+        _draw_network_operator(layout, context, "mesh.optimize_seams", icon="UV_EDGESEL")
+        layout.prop(seams, "selected_only")
+        _draw_network_operator(layout, context, "mesh.optimize_segmentation", icon="FACE_MAPS")
+        layout.prop(regions, "source")
+        if regions.source == "ATTRIBUTE":
+            layout.prop_search(regions, "attribute", context.object.data, "attributes")
+
+
+class VIEW3D_PT_minimum_ratio_contours_curvature(bpy.types.Panel):
+    bl_label = "Curvature"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Contours"
+    bl_parent_id = "VIEW3D_PT_minimum_ratio_contours"
+
+    def draw(self, context):
+        column = self.layout.column(align=True)
+        column.operator("mesh.show_curvature", text="Show Colors", icon="COLOR")
+        is_shown = show_directions.is_shown()
+        column.operator(
+            "mesh.show_curvature_directions", text="Directions", icon="ORIENTATION_NORMAL", depress=is_shown
+        )
+
+
+def _draw_network_operator(layout, context, name, icon):
+    """A button whose operator takes the settings of the panel above it."""
+    button, settings = layout.operator(name, icon=icon), _remembered(context)
+    for setting in NETWORK:
+        setattr(button, setting, getattr(settings, setting))
+
+
+def _remembered(context):
+    return context.window_manager.operator_properties_last(OPERATOR)
 
 
 def _draw_result(layout, context, last):
     _draw_text(layout, context, last.message, "INFO")
     for numbers in last.contours[:_SHOWN]:
-        _draw_numbers(layout.box(), context, numbers, with_reason=len(last.contours) > 1)
+        _draw_numbers(layout.box(), context, numbers, several=len(last.contours) > 1)
     if len(last.contours) > _SHOWN:
         layout.label(text=f"and {len(last.contours) - _SHOWN} more")
 
 
-def _draw_numbers(box, context, numbers, with_reason):
-    """The message gives the reason too, but not of which of several contours."""
+def _draw_numbers(box, context, numbers, several):
+    """Of one contour all numbers. Of several the reasons, which the message gives too, but not of which of them."""
     icon = "CHECKMARK" if numbers.status == "improved" else "DOT"
+    box = box.column(align=True)
     _draw_text(box, context, f"{numbers.place}: {numbers.status}", icon)
-    if with_reason and numbers.reason:
-        _draw_text(box, context, numbers.reason, "BLANK1")
+    if several:
+        _draw_text(box, context, numbers.reason or numbers.salience, "BLANK1")
+        return
     units = context.scene.unit_settings
     length = bpy.utils.units.to_string(units.system, "LENGTH", numbers.length * units.scale_length, precision=3)
-    column = box.column(align=True)
-    if numbers.salience:
-        column.label(text=numbers.salience)
-    column.label(text=f"Ratio {numbers.initial_ratio:.3g} to {numbers.ratio:.3g}")
-    column.label(text=f"Length {length}")
-    column.label(text=f"{numbers.faces} faces, {numbers.milliseconds:.1f} ms")
+    lines = (
+        numbers.salience,
+        f"Ratio {numbers.initial_ratio:.3g} to {numbers.ratio:.3g}",
+        f"Length {length}",
+        f"{numbers.faces} faces, {numbers.milliseconds:.1f} ms",
+    )
+    for line in filter(None, lines):
+        box.label(text=line, icon="BLANK1")
 
 
 def _draw_text(layout, context, text, icon):
@@ -235,6 +305,8 @@ _CLASSES = (
     ContourNumbers,
     LastResult,
     VIEW3D_PT_minimum_ratio_contours,
+    VIEW3D_PT_minimum_ratio_contours_networks,
+    VIEW3D_PT_minimum_ratio_contours_curvature,
     VIEW3D_PT_minimum_ratio_contours_result,
     VIEW3D_PT_minimum_ratio_contours_constraints,
     VIEW3D_PT_minimum_ratio_contours_more,

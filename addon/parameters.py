@@ -226,7 +226,7 @@ PRESETS = {
     ),
 }
 
-# Besides the width; the others are for those who look for them.
+# Besides width and reach; the others are for those who look for them.
 MAIN = (
     "refinement",
     "iterations",
@@ -234,7 +234,6 @@ MAIN = (
     "anchor",
 )
 MORE = (
-    "reach",
     "length_floor",
     "crease",
     "feature_clamp",

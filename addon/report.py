@@ -65,7 +65,8 @@ def summary(outcomes, notes=()):
     results = [outcome.result for outcome in outcomes if outcome.result is not None and not outcome.problem]
     sentences = []
     if results:
-        sentences = [_statuses(results), _ratios(results)]
+        moved = any(result.ratio != result.initial_ratio for result in results)
+        sentences = [_statuses(results), _ratios(results)] if moved else [_statuses(results)]
     left = [outcome for outcome in outcomes if outcome.problem]
     if left:
         sentences.append(_left(outcomes, left))
@@ -174,6 +175,17 @@ def curvature_shown(count, problems, values, colors):
     if count:
         places = "1 mesh" if count == 1 else f"{count} meshes"
         sentences = [f"Curvature of {places} is in the attributes '{values}', in 1 / length, and '{colors}'"]
+    if problems:
+        sentences.append("Not shown: " + shortened(problems, "; "))
+    return ". ".join(sentences)
+
+
+def directions_shown(count, problems):
+    sentences = []
+    if count:
+        sentences = [f"Directions at {count} concave vertices"]
+    elif not problems:
+        sentences = ["Nothing is notably concave here: there are no directions to show"]
     if problems:
         sentences.append("Not shown: " + shortened(problems, "; "))
     return ". ".join(sentences)

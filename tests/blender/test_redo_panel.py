@@ -15,6 +15,9 @@ OPERATORS = (
 )
 
 
+FOLDS = Counter(operators.Folds.__annotations__.keys())
+
+
 class Layout:
     """Notes what is drawn into it and into its rows."""
 
@@ -41,9 +44,10 @@ class Layout:
 class Shown:
     """Stands in for the operator: Blender makes those only itself."""
 
-    def __init__(self, operator):
+    def __init__(self, operator, unfolded=True):
         self.layout = Layout()
         self.methods = operator
+        self.show_more = self.show_constraints = unfolded
         self.properties = bpy.context.window_manager.operator_properties_last(operator.bl_idname)
 
     def __getattr__(self, name):
@@ -59,7 +63,17 @@ def test_every_property_is_shown_once(operator):
     operator.draw(shown, bpy.context)
     names = {prop.identifier for prop in shown.properties.bl_rna.properties if not prop.is_hidden} - {"rna_type"}
     assert {"width", "min_salience"} < names
-    assert shown.layout.drawn == Counter(names)
+    assert shown.layout.drawn - FOLDS == Counter(names)
+
+
+@pytest.mark.parametrize("operator", OPERATORS[:2], ids=lambda operator: operator.__name__)
+def test_folded_the_main_settings_are_left(operator):
+    bpy.ops.mesh.primitive_cube_add()
+    folded, unfolded = Shown(operator, unfolded=False), Shown(operator)
+    for shown in (folded, unfolded):
+        operator.draw(shown, bpy.context)
+    assert {"output", "width", *FOLDS} < folded.layout.drawn.keys()
+    assert len(folded.layout.drawn) <= 15 < len(unfolded.layout.drawn)
 
 
 @pytest.mark.parametrize("operator", OPERATORS, ids=lambda operator: operator.__name__)

@@ -123,6 +123,19 @@ def test_the_header_says_what_the_keys_change():
     assert "Whole Surface" in adjust_state.header(after(start(), "WHOLE_SURFACE"), "Seam", "")
 
 
+@pytest.mark.parametrize(
+    ("commands", "wider"),
+    [(["WIDER"], True), (["NARROWER"], False), (["FINER"], False), (["REACH", "WIDER"], False)],
+)
+def test_the_reach_may_hold_only_a_wider_band(commands, wider):
+    before = state = start(width=5)
+    for command in commands:
+        before, state = state, adjust_state.changed(state, command)
+    assert adjust_state.is_wider(state, before) == wider
+    held = adjust_state.header(state, "Seam", "", held=True)
+    assert held.count("(E: off)") == 1 + adjust_state.header(state, "Seam", "").count("(E: off)")
+
+
 SEGMENTS, RINGS, GROOVE = 24, 17, 10
 
 

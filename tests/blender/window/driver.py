@@ -8,6 +8,9 @@ from mathutils import Vector
 
 PAUSE = 0.02  # seconds between the steps of a scenario
 _DRAWN = 3  # steps until what an event changed is on the screen
+_ROW = 14  # pixels, less than a row of buttons
+_OPENED = 12  # steps until a popup is there, or the HUD
+_DIGITS = ("ZERO", "ONE", "TWO", "THREE", "FOUR", "FIVE", "SIX", "SEVEN", "EIGHT", "NINE")
 
 
 class Window:
@@ -65,6 +68,75 @@ class Window:
         for _ in range(times):
             self._event(key, "PRESS")
         yield from self.wait()
+
+    def move_over(self, x, y):
+        """Moves the mouse to a place of the window, in pixels."""
+        self.mouse = int(x), int(y)
+        self._event("MOUSEMOVE", "NOTHING")
+        yield
+        yield
+
+    def type(self, text):
+        for letter in text:
+            key = _DIGITS[int(letter)] if letter.isdigit() else letter.upper()
+            self._event(key, "PRESS", unicode=letter)
+            self._event(key, "RELEASE")
+            yield
+        yield from self.wait()
+
+    def copied(self):
+        """What Blender copies of the button under the mouse: an operator's command, or a value."""
+        manager = bpy.context.window_manager
+        manager.clipboard = ""
+        self._event("C", "PRESS", ctrl=True)
+        self._event("C", "RELEASE", ctrl=True)
+        yield
+        return manager.clipboard
+
+    def region_of(self, kind):
+        return next(region for region in self.area.regions if region.type == kind)
+
+    def find(self, kind, text, share=0.7):
+        """Moves the mouse down a region until it is over a button with this command or value; gives its height."""
+        region = self.region_of(kind)
+        for y in range(region.y + region.height - _ROW, region.y, -_ROW):
+            self.mouse = int(region.x + share * region.width), y
+            self._event("MOUSEMOVE", "NOTHING")
+            yield
+            if text in (yield from self.copied()):
+                return y
+        raise AssertionError(f"no button with {text} in the region {kind}")
+
+    def push(self, kind, text, share=0.7):
+        """Clicks on the button with this command."""
+        yield from self.find(kind, text, share)
+        yield from self.press("LEFTMOUSE")
+        yield from self.rest()
+
+    def rest(self):
+        """Until what opens by itself is open."""
+        for _ in range(_OPENED):
+            yield
+
+    def choose(self, text, among=12):
+        """Picks the entry with this command from the end of the menu that is open."""
+        yield from self.rest()
+        yield from self.press("END")
+        for _ in range(among):
+            if text in (yield from self.copied()):
+                yield from self.press("RET")
+                yield from self.rest()
+                return
+            yield from self.press("UP_ARROW")
+        raise AssertionError(f"no entry with {text} at the end of the menu")
+
+    def open_sidebar(self):
+        """With the tab of the add-on, which is the last one."""
+        self.area.spaces.active.show_region_ui = True
+        yield from self.rest()
+        region = self.region_of("UI")
+        yield from self.move_over(region.x + region.width // 2, region.y + region.height - 40)
+        yield from self.press("WHEELDOWNMOUSE", times=4, ctrl=True)
 
     def drag(self, button, x, y):
         self._event(button, "PRESS")

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The modal operator in a real window, driven by simulated events; pictures of it go to a folder.
+"""The add-on in a real window, driven by simulated events; pictures of it go to a folder.
 
 xvfb-run -a -s "-screen 0 1600x1000x24" env LIBGL_ALWAYS_SOFTWARE=1 blender --factory-startup \
-    --window-geometry 0 0 1600 1000 --enable-event-simulate --python tests/blender/window/run.py -- PICTURES
+    --window-geometry 0 0 1600 1000 --enable-event-simulate --python tests/blender/window/run.py -- PICTURES [WORD]
 
-Every scenario is a generator: where it yields, Blender handles the events and draws.
+Every scenario is a generator: where it yields, Blender handles the events and draws. With a word only those run that
+have it in their names.
 """
 
 import os
@@ -20,17 +21,28 @@ bpy.context.preferences.view.show_splash = False
 bpy.context.preferences.system.viewport_aa = "OFF"  # its samples add up while nothing moves
 
 import scenarios  # noqa: E402
+import scenarios_curvature  # noqa: E402
+import scenarios_menus  # noqa: E402
+import scenarios_sidebar  # noqa: E402
 from driver import PAUSE, Window  # noqa: E402
 
+MODULES = scenarios, scenarios_sidebar, scenarios_menus, scenarios_curvature
 
-def run_all(pictures):
+
+def run_all(pictures, word):
     window = Window(pictures)
-    for name, scenario in vars(scenarios).items():
-        if name.startswith("test_"):
+    for name, scenario in (item for module in MODULES for item in vars(module).items()):
+        if name.startswith("test_") and word in name:
             print(f"{name} ...", end=" ", flush=True)
-            yield from window.fresh()
-            yield from scenario(window)
-            print("passed", flush=True)
+            try:
+                yield from window.fresh()
+                yield from scenario(window)
+                print("passed", flush=True)
+            except Exception:  # the others shall still be run
+                traceback.print_exc()
+                print("FAILED", flush=True)
+                failed.append(name)
+                yield from window.press("ESC", times=3)
 
 
 def step():
@@ -38,7 +50,9 @@ def step():
     try:
         next(running)
     except StopIteration:
-        print(f"pictures in {pictures}")
+        print(f"pictures in {pictures}; failed: {', '.join(failed) or 'none'}", flush=True)
+        if failed:
+            os._exit(1)
         bpy.ops.wm.quit_blender()
         return None
     except BaseException:
@@ -48,7 +62,9 @@ def step():
     return PAUSE
 
 
-pictures = Path(sys.argv[sys.argv.index("--") + 1]).resolve()
+folder, word, *_ = [*sys.argv[sys.argv.index("--") + 1 :], ""]
+pictures = Path(folder).resolve()
 pictures.mkdir(parents=True, exist_ok=True)
-running = run_all(pictures)
+failed = []
+running = run_all(pictures, word)
 bpy.app.timers.register(step, first_interval=0.5)

@@ -9,35 +9,13 @@ from made_meshes import (
     GROOVE,
     SEGMENTS,
     edge_set,
-    edit,
     everything,
     flagged,
-    grooved_cylinder,
-    pairs,
     ring,
-    rough_loop,
-    select,
 )
 from mathutils import Matrix
 from minimum_ratio_contours.preview import Preview
-
-LOOP = rough_loop(GROOVE - 4)
-FRONT = 3 * SEGMENTS // 4  # the column that faces the view
-
-
-def cylinder(matrix=None):
-    """In Edit Mode with a rough loop selected that the groove lies a few rings above."""
-    obj = grooved_cylinder()
-    obj.matrix_world = matrix or Matrix()
-    edit(obj)
-    select(obj, pairs(LOOP))
-    bpy.ops.ed.undo_push(message="prepared")
-    return obj
-
-
-def now():
-    """Undo replaces the objects: they must be looked up again."""
-    return bpy.data.objects["Cylinder"]
+from prepared import FRONT, LOOP, cylinder, now
 
 
 def test_escape_leaves_everything_as_it_was(window):

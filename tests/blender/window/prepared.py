@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the scenarios start from."""
+
+import bpy
+from made_meshes import GROOVE, SEGMENTS, edit, grooved_cylinder, pairs, rough_loop, select
+from mathutils import Matrix
+
+LOOP = rough_loop(GROOVE - 4)
+FRONT = 3 * SEGMENTS // 4  # the column that faces the view
+
+
+def cylinder(matrix=None):
+    """In Edit Mode with a rough loop selected that the groove lies a few rings above."""
+    obj = grooved_cylinder()
+    obj.matrix_world = matrix or Matrix()
+    edit(obj)
+    select(obj, pairs(LOOP))
+    bpy.ops.ed.undo_push(message="prepared")
+    return obj
+
+
+def now():
+    """Undo replaces the objects: they must be looked up again."""
+    return bpy.data.objects["Cylinder"]
