@@ -9,7 +9,7 @@ import minimum_ratio_contours
 import pytest
 from minimum_ratio_contours import native
 
-MODULE = "minimum_ratio_contours"
+MODULE = minimum_ratio_contours.__name__  # longer where it is an extension
 
 
 MENUS = (
