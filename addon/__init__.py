@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Minimum Ratio Contours: moves a rough edge loop to the part boundary nearby."""
 
+import sys
+
 bl_info = {
     "name": "Minimum Ratio Contours",
     "author": "Minimum Ratio Contours developers",
@@ -10,6 +12,12 @@ bl_info = {
     "description": "Moves rough edge loops to the part boundaries nearby",
     "category": "Mesh",
 }
+
+# An upgrade in a running Blender reloads this file alone: forget the others, so that they are loaded anew. The compiled
+# module cannot be; native.py tells it from the version that belongs here.
+for _name in [name for name in sys.modules if name.startswith(__name__ + ".") and not name.endswith(".mrcontour")]:
+    del sys.modules[_name]
+    globals().pop(_name.rpartition(".")[2], None)
 
 
 def _modules():

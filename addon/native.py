@@ -77,6 +77,6 @@ def _missing():
             "install the package made for yours"
         )
     return (
-        "The compiled library mrcontour is missing: this copy of the add-on is source only. "
-        f"Install the packaged add-on for your system (this Blender has {python})"
+        "This copy of the add-on is its source, without the compiled library mrcontour: "
+        f"install the package made for your system and {python}"
     )

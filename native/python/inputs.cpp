@@ -19,7 +19,7 @@ std::vector<std::array<int, 2>> edge_pairs(const py::object& edges, const char* 
     return result;
 }
 
-std::vector<mrc::Attractor> to_attractors(const py::iterable& attractors) {
+std::vector<mrc::Attractor> to_attractors(const Iterable& attractors) {
     std::vector<mrc::Attractor> result;
     for (const py::handle item : attractors) {
         const Doubles fields = doubles(py::reinterpret_borrow<py::object>(item), "an attractor");
@@ -110,7 +110,7 @@ Density to_density(const py::object& density) {
     return {values, view(values)};
 }
 
-mrc::Wishes to_wishes(const py::object& required_vertices, const py::object& required_edges, const py::iterable& attractors,
+mrc::Wishes to_wishes(const py::object& required_vertices, const py::object& required_edges, const Iterable& attractors,
                       const py::object& barriers, const Density& region_density) {
     mrc::Wishes wishes;
     const Integers vertices = integers(required_vertices, "required_vertices");
@@ -123,7 +123,7 @@ mrc::Wishes to_wishes(const py::object& required_vertices, const py::object& req
     return wishes;
 }
 
-std::vector<mrc::Task> to_tasks(const py::iterable& contours, const py::object& closed, const py::object& required_vertices,
+std::vector<mrc::Task> to_tasks(const Iterable& contours, const py::object& closed, const py::object& required_vertices,
                                 const py::object& required_edges, const mrc::Wishes& shared, const py::object& scales) {
     const py::list list(contours);
     const std::size_t count = list.size();

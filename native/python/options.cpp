@@ -10,6 +10,7 @@
 #include <array>
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -54,9 +55,10 @@ std::string name_of(const Names<Enum, N>& names, Enum value) {
     return {};
 }
 
-/// One option: how it is set from Python and read back, and what it means.
+/// One option: its type in Python's words, how it is set from Python and read back, and what it means.
 struct Row {
     const char* name;
+    std::string type;
     std::function<void(Options&, const py::object&)> set;
     std::function<py::object(const Options&)> get;
     const char* meaning;
@@ -72,15 +74,29 @@ T converted(const char* option, const py::object& value) {
 }
 
 template <class T>
+std::string type_name() {
+    if constexpr (std::is_same_v<T, int>) return "int";
+    if constexpr (std::is_same_v<T, double>) return "float";
+    if constexpr (requires { typename T::value_type; }) return type_name<typename T::value_type>() + " | None";
+}
+
+template <class Enum, std::size_t N>
+std::string literal(const Names<Enum, N>& names) {
+    std::string texts;
+    for (const auto& [text, value] : names) texts += (texts.empty() ? "'" : ", '") + std::string(text) + "'";
+    return "typing.Literal[" + texts + "]";
+}
+
+template <class T>
 Row field(const char* name, T Options::*member, const char* meaning) {
-    return {name, [=](Options& o, const py::object& value) { o.*member = converted<T>(name, value); },
+    return {name, type_name<T>(), [=](Options& o, const py::object& value) { o.*member = converted<T>(name, value); },
             [=](const Options& o) { return py::cast(o.*member); }, meaning};
 }
 
 template <class Enum, std::size_t N>
 Row choice(const char* name, const Names<Enum, N>& names, Enum Options::*member, const char* meaning) {
     return {
-        name,
+        name, literal(names),
         [=, &names](Options& o, const py::object& value) { o.*member = parse(names, name, converted<std::string>(name, value)); },
         [=, &names](const Options& o) { return py::cast(name_of(names, o.*member)); }, meaning};
 }
@@ -164,12 +180,28 @@ std::string text_of(const Options& options) {
     return "Options(" + text + ")";
 }
 
+/// The constructor takes any keywords and looks them up itself: what it shows is written out here, also for type checkers.
+std::string constructor_signature() {
+    const Options defaults;
+    std::string text = "__init__(self: mrcontour.Options, *";
+    for (const Row& row : rows()) {
+        text += ", " + std::string(row.name) + ": " + row.type + " = " + std::string(py::repr(row.get(defaults)));
+    }
+    return text + ") -> None";
+}
+
 }  // namespace
 
 void bind_options(py::module_& module) {
     py::class_<Options> options(module, "Options", documentation().c_str());
-    options.def(py::init(&make_options)).def("__repr__", &text_of);
-    for (const Row& row : rows()) options.def_property_readonly(row.name, row.get);
+    options.def("__repr__", &text_of);
+    py::options own_signatures;
+    own_signatures.disable_function_signatures();
+    options.def(py::init(&make_options), constructor_signature().c_str());
+    for (const Row& row : rows()) {
+        const std::string signature = "(self: mrcontour.Options) -> " + row.type;
+        options.def_property_readonly(row.name, py::cpp_function(row.get, signature.c_str()));
+    }
 }
 
 }  // namespace mrc_python

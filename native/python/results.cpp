@@ -64,9 +64,9 @@ Doubles edge_parameters(const mrc::Contour& contour) {
     return to_array(parameters);
 }
 
-py::dict statistics(const PyResult& r) {
+Dict statistics(const PyResult& r) {
     const mrc::Statistics& s = r.result.statistics;
-    py::dict d;
+    Dict d;
     d["faces"] = s.faces;
     d["cut"] = s.cut;
     d["nodes"] = s.nodes;
@@ -145,7 +145,7 @@ void bind_results(py::module_& module) {
                                "No contour of the last iteration's graph has a lower objective.")
         .def_property_readonly("gap", field(&mrc::Result::gap), "Objective of the best found minus lower_bound.")
         .def_property_readonly(
-            "held_back_by", [](const PyResult& r) { return py::tuple(py::cast(r.result.held_back_by)); },
+            "held_back_by", [](const PyResult& r) { return py::typing::Tuple<int, py::ellipsis>(py::cast(r.result.held_back_by)); },
             "tuple of int: of optimize_all's contours those that kept this one's last band from growing, by their place in the "
             "list.")
         .def_property_readonly("history", field(&mrc::Result::history), "Objective before the first and after each iteration.")

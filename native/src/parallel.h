@@ -12,6 +12,14 @@
 
 namespace mrc {
 
+/// Threads that are joined at the end of their scope: std::jthread, which Apple's library lacks.
+struct Joined {
+    std::vector<std::thread> threads;
+    ~Joined() {
+        for (std::thread& thread : threads) thread.join();
+    }
+};
+
 /// Calls task(i) for every i from 0 up to count, on `threads` threads; 0: as many as the machine has. All tasks are done when it
 /// returns; of what they throw, the exception of the lowest i is thrown here. While the calling thread waits, it calls idle() often.
 template <class Task, class Idle>
@@ -35,8 +43,8 @@ void parallel_for(int count, int threads, Task&& task, Idle&& idle) {
         }
     };
     {
-        std::vector<std::jthread> others;
-        for (int w = 1; w < workers; ++w) others.emplace_back(work);
+        Joined others;
+        for (int w = 1; w < workers; ++w) others.threads.emplace_back(work);
         work();
         std::unique_lock lock(mutex);
         while (!all_done.wait_for(lock, std::chrono::milliseconds(2), [&] { return done == count; })) {

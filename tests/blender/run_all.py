@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs the add-on's tests inside Blender, with the add-on found in BLENDER_USER_SCRIPTS:
+"""Runs the add-on's tests inside Blender, with the add-on installed in the user's folders, or in BLENDER_USER_SCRIPTS:
 
 blender -b --factory-startup --python-exit-code 1 --python tests/blender/run_all.py [-- PYTEST ARGUMENT...]
 python tests/blender/run_all.py [-- PYTEST ARGUMENT...]          where the bpy wheel is installed
@@ -11,7 +11,10 @@ from pathlib import Path
 import bpy
 import pytest
 
-bpy.ops.preferences.addon_enable(module="minimum_ratio_contours")
-print(f"Blender {bpy.app.version_string}, Python {sys.version.split()[0]}", flush=True)
+sys.path.insert(0, str(Path(__file__).parent))
+import addon_module  # noqa: E402
+
+package = addon_module.enable()
+print(f"Blender {bpy.app.version_string}, Python {sys.version.split()[0]}, {package.__file__}", flush=True)
 arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
 sys.exit(int(pytest.main(["-q", "-p", "no:cacheprovider", str(Path(__file__).parent), *arguments])))

@@ -9,7 +9,7 @@ import minimum_ratio_contours
 import pytest
 from minimum_ratio_contours import native
 
-MODULE = "minimum_ratio_contours"
+MODULE = minimum_ratio_contours.__name__  # longer where it is an extension
 
 
 MENUS = (
@@ -81,5 +81,6 @@ def test_every_setting_has_a_short_name_and_a_tooltip(name):
 
 
 def test_the_versions_agree():
-    assert minimum_ratio_contours.bl_info["version"] == tuple(map(int, native.VERSION.split(".")))
+    (found,) = (module for module in addon_utils.modules() if module.__name__ == MODULE)
+    assert addon_utils.module_bl_info(found)["version"] == tuple(map(int, native.VERSION.split(".")))
     assert native.module().__version__ == native.VERSION

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 from unittest.mock import MagicMock
 
 import bpy
+import minimum_ratio_contours
 import pytest
 from made_meshes import (
     GROOVE,
@@ -51,7 +52,7 @@ class Drawn:
 @pytest.fixture
 def own():
     """The user's preferences, which are put back afterwards."""
-    found = bpy.context.preferences.addons["minimum_ratio_contours"].preferences
+    found = bpy.context.preferences.addons[minimum_ratio_contours.__name__].preferences
     yield found
     bpy.ops.mesh.contour_defaults()
 

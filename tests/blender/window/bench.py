@@ -14,7 +14,9 @@ import bpy
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-bpy.ops.preferences.addon_enable(module="minimum_ratio_contours")
+import addon_module  # noqa: E402
+
+addon_module.enable()
 
 from bench_meshes import GROOVE, grooved_tube, milliseconds, square  # noqa: E402
 from made_meshes import edit, pairs, select  # noqa: E402

@@ -16,7 +16,9 @@ from pathlib import Path
 import bpy
 
 sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parents[1])]
-bpy.ops.preferences.addon_enable(module="minimum_ratio_contours")
+import addon_module  # noqa: E402
+
+addon_module.enable()
 bpy.context.preferences.view.show_splash = False
 bpy.context.preferences.system.viewport_aa = "OFF"  # its samples add up while nothing moves
 

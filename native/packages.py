@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Makes the packages for Blender from wheels that stand on their own, all of one platform.
+
+Each wheel of a Python that Blender 4.2 or later has becomes an extension; the others share one legacy add-on.
+"""
+
+import argparse
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
+
+from packaging.utils import parse_wheel_filename
+
+ADDON = Path(__file__).resolve().parents[1] / "addon"
+ID = "minimum_ratio_contours"
+# The Blenders that have each Python, from the first up to and without the last; before 4.2 there are no extensions.
+EXTENSION_RELEASES = {"cp311": ("4.2.0", "5.1.0"), "cp313": ("5.1.0", None)}
+LEGACY_PYTHONS = ("cp310", "cp311")
+PLATFORMS = {"linux": "linux", "manylinux": "linux", "musllinux": "linux", "win": "windows", "macosx": "macos"}
+MACHINES = {"x86_64": "x64", "amd64": "x64", "arm64": "arm64", "aarch64": "arm64"}
+
+
+def read_name(wheel):
+    """Version, tag of the Python, and platform in Blender's words, of a wheel."""
+    _, version, _, tags = parse_wheel_filename(wheel.name)
+    tag = next(iter(tags))
+    system = next(name for prefix, name in PLATFORMS.items() if tag.platform.startswith(prefix))
+    machine = next(name for suffix, name in MACHINES.items() if tag.platform.endswith(suffix))
+    return str(version), tag.interpreter, f"{system}-{machine}"
+
+
+def package_name(wheels, kind):
+    names = [read_name(wheel) for wheel in wheels]
+    version, _, platform = names[0]
+    return f"{ID}-{version}-{kind}-{platform}-{'-'.join(python for _, python, _ in names)}.zip"
+
+
+def manifest(wheel):
+    """The source's manifest, with what only a package can say."""
+    _, python, platform = read_name(wheel)
+    first, end = EXTENSION_RELEASES[python]
+    text = (ADDON / "blender_manifest.toml").read_text(encoding="utf-8")
+    text = text.replace('blender_version_min = "4.2.0"', f'blender_version_min = "{first}"')
+    if end:
+        text += f'blender_version_max = "{end}"\n'
+    return text + f'platforms = ["{platform}"]\nwheels = ["./wheels/{wheel.name}"]\n'
+
+
+def build_extension(wheel, output, tool):
+    """Blender's own tool builds and validates the extension from a folder that holds nothing else."""
+    package = output / package_name([wheel], "extension")
+    with tempfile.TemporaryDirectory() as folder:
+        folder = Path(folder)
+        for source in ADDON.glob("*.py"):
+            shutil.copyfile(source, folder / source.name)
+        (folder / "blender_manifest.toml").write_text(manifest(wheel), encoding="utf-8")
+        (folder / "wheels").mkdir()
+        shutil.copyfile(wheel, folder / "wheels" / wheel.name)
+        for path in folder.rglob("*"):
+            os.utime(path, (_epoch(), _epoch()))
+        run = [sys.executable, tool]
+        subprocess.run([*run, "build", "--source-dir", folder, "--output-filepath", package], check=True)
+        subprocess.run([*run, "validate", package], check=True)
+    return package
+
+
+def build_legacy(wheels, output):
+    """One folder with the add-on, the modules for all Pythons, the libraries that they need, and the licences."""
+    package = output / package_name(wheels, "legacy")
+    files = {"": b""} | {source.name: source.read_bytes() for source in ADDON.glob("*.py")}
+    for wheel in wheels:
+        files |= _library_files(wheel)
+    with ZipFile(package, "w", ZIP_DEFLATED) as content:
+        for name in sorted(files):
+            # Without an entry for the folder, Blender writes an upgrade into the very library that it has loaded.
+            entry = ZipInfo(f"{ID}/{name}")  # dated 1980
+            entry.compress_type, entry.external_attr = ZIP_DEFLATED, (0o644 if name else 0o40755) << 16
+            content.writestr(entry, files[name])
+    return package
+
+
+def _library_files(wheel):
+    """What of a wheel belongs beside the add-on's Python: the module, the libraries grafted to it, the licences."""
+    with ZipFile(wheel) as content:
+        names = [name for name in content.namelist() if not name.endswith("/")]
+        beside = {name: name for name in names if name.startswith(("mrcontour.", ".dylibs/"))}
+        licences = {name.rpartition("/")[2]: name for name in names if "/licenses/" in name}
+        return {target: content.read(name) for target, name in (beside | licences).items()}
+
+
+def _epoch():
+    return int(os.environ.get("SOURCE_DATE_EPOCH", "315532800"))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("wheels", type=Path, nargs="+")
+    parser.add_argument("--extension-tool", type=Path, required=True, help="blender_ext.py of a Blender or a bpy wheel")
+    parser.add_argument("--output", type=Path, required=True, help="the folder for the packages")
+    arguments = parser.parse_args()
+    arguments.output.mkdir(parents=True, exist_ok=True)
+    wheels = sorted(arguments.wheels)
+    extensions = [wheel for wheel in wheels if read_name(wheel)[1] in EXTENSION_RELEASES]
+    packages = [build_extension(wheel, arguments.output, arguments.extension_tool) for wheel in extensions]
+    legacy = [wheel for wheel in wheels if read_name(wheel)[1] in LEGACY_PYTHONS]
+    if legacy:
+        packages.append(build_legacy(legacy, arguments.output))
+    print(*packages, sep="\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Enables the add-on for the tests, installed as a legacy add-on, as an extension or from a build folder."""
+
+import importlib
+import pkgutil
+import sys
+
+import bpy  # first: as a wheel it brings the path of the next one
+
+# isort: split
+import addon_utils
+
+NAME = "minimum_ratio_contours"
+
+
+def enable():
+    """The add-on's package, which the tests import as minimum_ratio_contours also where it is an extension."""
+    names = [module.__name__ for module in addon_utils.modules() if module.__name__.split(".")[-1] == NAME]
+    if len(names) != 1:
+        sys.exit(f"installed once should be the add-on {NAME}; there are: {names}")
+    bpy.ops.preferences.addon_enable(module=names[0])
+    package = importlib.import_module(names[0])
+    if package.__name__ != NAME:
+        _give_short_names(package)
+    return package
+
+
+def _give_short_names(package):
+    """The same modules under both names: a second import would make second classes and caches."""
+    for found in pkgutil.iter_modules(package.__path__):
+        importlib.import_module(f"{package.__name__}.{found.name}")
+    for name, module in list(sys.modules.items()):
+        if name == package.__name__ or name.startswith(package.__name__ + "."):
+            sys.modules[NAME + name.removeprefix(package.__name__)] = module

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Takes steps in a Blender of its own, and prints a line of JSON with what is there after each:
+
+blender -b --factory-startup --python-exit-code 1 --python tests/packages/in_blender.py -- STEP...
+python tests/packages/in_blender.py -- STEP...                  where the bpy wheel is installed
+
+A step is the path of a package, which is installed and enabled, or one of: look, enable, disable, uninstall.
+"""
+
+import importlib
+import json
+import sys
+from pathlib import Path
+
+import bpy  # first: as a wheel it brings the path of the next one
+
+# isort: split
+import addon_utils
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "blender"))
+from made_meshes import GROOVE, edit, grooved_cylinder, pairs, rough_loop, select  # noqa: E402
+
+ID = "minimum_ratio_contours"
+EXTENSIONS = bpy.app.version >= (4, 2)
+MODULE = f"bl_ext.user_default.{ID}" if EXTENSIONS else ID
+
+
+def install(package):
+    if EXTENSIONS:
+        bpy.ops.extensions.package_install_files(
+            filepath=package, repo="user_default", enable_on_install=True, overwrite=True
+        )
+    else:
+        bpy.ops.preferences.addon_install(filepath=package, overwrite=True)
+        bpy.ops.preferences.addon_enable(module=ID)
+
+
+def enable():
+    bpy.ops.preferences.addon_enable(module=MODULE)
+
+
+def disable():
+    bpy.ops.preferences.addon_disable(module=MODULE)
+
+
+def uninstall():
+    if EXTENSIONS:
+        repositories = [repository.module for repository in bpy.context.preferences.extensions.repos]
+        bpy.ops.extensions.package_uninstall(repo_index=repositories.index("user_default"), pkg_id=ID)
+    else:
+        window = bpy.context.window_manager.windows[0]
+        with bpy.context.temp_override(window=window, area=window.screen.areas[0]):  # which it draws anew
+            bpy.ops.preferences.addon_remove(module=ID)
+
+
+def optimize():
+    """What the user reads where a rough loop beside a groove is refused; nothing where it is moved."""
+    obj = grooved_cylinder()
+    edit(obj)
+    select(obj, pairs(rough_loop(GROOVE - 3)))
+    try:
+        return "" if bpy.ops.mesh.optimize_contour() == {"FINISHED"} else "cancelled"
+    except (AttributeError, RuntimeError) as error:
+        return str(error)
+    finally:
+        bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def state():
+    """Whether the add-on is there and on, its version and its library's, and what its operator says."""
+    installed = MODULE in [module.__name__ for module in addon_utils.modules(refresh=True)]
+    enabled = MODULE in bpy.context.preferences.addons
+    found = {"installed": installed, "enabled": enabled, "operator": hasattr(bpy.types, "MESH_OT_optimize_contour")}
+    if enabled:
+        native = importlib.import_module(MODULE + ".native")
+        found |= {"says": optimize(), "problem": native.problem(), "version": native.VERSION}
+        library = sys.modules.get(MODULE + ".mrcontour") or sys.modules.get("mrcontour")
+        found["library"] = getattr(library, "__version__", None)
+        found["library_file"] = getattr(library, "__file__", None)
+    return found
+
+
+STEPS = {"look": lambda: None, "enable": enable, "disable": disable, "uninstall": uninstall}
+for step in sys.argv[sys.argv.index("--") + 1 :]:
+    if step in STEPS:
+        STEPS[step]()
+    else:
+        install(step)
+    print("STATE " + json.dumps(state()), flush=True)

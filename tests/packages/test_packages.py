@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the packages hold, that Blender's own tools accept them, and that they stand on their own."""
+
+import re
+import subprocess
+import sys
+from zipfile import ZipFile
+
+import packages as maker
+import pytest
+import tomllib
+from conftest import ROOT, only
+
+SOURCES = {path.name for path in (ROOT / "addon").glob("*.py")}
+LICENCES = {"LICENSE", "THIRD_PARTY.txt"}
+MODULE = r"mrcontour\.cpython-3\d+-[\w-]+\.so"
+LIBRARY = r"mrcontour\.libs/libOpenMeshCore-\w+\.so[\d.]*"
+
+
+def names(package):
+    with ZipFile(package) as content:
+        return sorted(name for name in content.namelist() if not name.endswith("/"))
+
+
+def contents(package):
+    with ZipFile(package) as content:
+        return {name: content.read(name) for name in content.namelist()}
+
+
+def manifest(package):
+    return tomllib.loads(contents(package)["blender_manifest.toml"].decode())
+
+
+def rest(found, patterns):
+    """What is left of names when one of each pattern is taken away."""
+    for pattern in patterns:
+        found = set(found) - {only(name for name in found if re.fullmatch(pattern, name))}
+    return found
+
+
+def test_the_wheel_holds_module_library_stubs_and_licences(packages, version):
+    info = f"mrcontour-{version}.dist-info"
+    wanted = [MODULE, LIBRARY, "mrcontour-stubs/__init__.pyi", *(f"{info}/licenses/{name}" for name in LICENCES)]
+    own = {f"{info}/{name}" for name in ("METADATA", "WHEEL", "RECORD", "sboms/auditwheel.cdx.json")}
+    assert rest(names(packages["wheel"]), wanted) <= own
+    assert "manylinux" in packages["wheel"].name
+
+
+def test_the_extension_holds_the_python_the_manifest_and_the_wheel(packages):
+    wheel = f"wheels/{packages['wheel'].name}"
+    assert set(names(packages["extension"])) == SOURCES | {"blender_manifest.toml", wheel}
+    assert contents(packages["extension"])[wheel] == packages["wheel"].read_bytes()
+
+
+def test_the_legacy_add_on_holds_the_python_the_library_and_the_licences(packages):
+    found = names(packages["legacy"])
+    assert all(name.startswith("minimum_ratio_contours/") for name in found)
+    assert rest([name.partition("/")[2] for name in found], [MODULE, LIBRARY]) == SOURCES | LICENCES
+
+
+def test_the_manifest_asks_for_no_permission_and_says_what_the_wheel_is_for(packages, version):
+    found = manifest(packages["extension"])
+    assert "permissions" not in found
+    assert (found["version"], found["wheels"]) == (version, [f"./wheels/{packages['wheel'].name}"])
+    assert (found["blender_version_min"], found["blender_version_max"]) == ("4.2.0", "5.1.0")
+    assert len(found["platforms"]) == 1
+    assert found["platforms"][0].startswith("linux-")
+
+
+def test_versions_agree_everywhere(packages, version):
+    init = (ROOT / "addon" / "__init__.py").read_text(encoding="utf-8")
+    assert f'"version": {tuple(map(int, version.split(".")))}' in init
+    assert all(version in package.name for package in packages.values())
+
+
+def test_tools_of_all_releases_accept_the_extension_and_build_the_same(extension_blender, packages, tmp_path):
+    validate = [sys.executable, extension_blender.tool, "validate", packages["extension"]]
+    subprocess.run(validate, check=True, capture_output=True)
+    built = maker.build_extension(packages["wheel"], tmp_path, extension_blender.tool)
+    assert contents(built) == contents(packages["extension"])
+
+
+def test_the_same_wheel_gives_the_same_legacy_add_on(packages, tmp_path):
+    assert maker.build_legacy([packages["wheel"]], tmp_path).read_bytes() == packages["legacy"].read_bytes()
+
+
+def test_the_library_comes_from_the_package_alone(packages, tmp_path):
+    with ZipFile(packages["legacy"]) as content:
+        content.extractall(tmp_path)
+    folder = tmp_path / "minimum_ratio_contours"
+    code = "import mrcontour; print(*{line.split()[-1] for line in open('/proc/self/maps') if 'OpenMesh' in line})"
+    loaded = subprocess.run([sys.executable, "-c", code], cwd=folder, check=True, capture_output=True, text=True).stdout
+    assert loaded.strip().startswith(str(folder / "mrcontour.libs"))
+
+
+def wheel_of(folder, python, platform):
+    """Stands in for a wheel of another system."""
+    wheel = folder / f"mrcontour-0.1.0-{python}-{python}-{platform}.whl"
+    with ZipFile(wheel, "w") as content:
+        content.writestr(f"mrcontour.{python}-{platform}.pyd", b"")
+        content.writestr("mrcontour-0.1.0.dist-info/licenses/LICENSE", b"")
+    return wheel
+
+
+@pytest.mark.parametrize(
+    ("python", "platform", "wanted", "releases"),
+    [
+        ("cp311", "win_amd64", "windows-x64", ("4.2.0", "5.1.0")),
+        ("cp313", "macosx_11_0_arm64", "macos-arm64", ("5.1.0", None)),
+        ("cp313", "manylinux_2_27_x86_64.manylinux_2_28_x86_64", "linux-x64", ("5.1.0", None)),
+    ],
+)
+def test_extensions_of_other_systems(blender_tool, tmp_path, python, platform, wanted, releases):
+    built = maker.build_extension(wheel_of(tmp_path, python, platform), tmp_path, blender_tool)
+    found = manifest(built)
+    assert built.name.endswith(f"-extension-{wanted}-{python}.zip")
+    assert found["platforms"] == [wanted]
+    assert (found["blender_version_min"], found.get("blender_version_max")) == releases
+
+
+def test_a_legacy_add_on_for_two_pythons(tmp_path):
+    wheels = [wheel_of(tmp_path, python, "win_amd64") for python in ("cp310", "cp311")]
+    built = maker.build_legacy(wheels, tmp_path)
+    assert built.name.endswith("-legacy-windows-x64-cp310-cp311.zip")
+    modules = {name for name in names(built) if name.endswith(".pyd")}
+    assert modules == {f"minimum_ratio_contours/mrcontour.{python}-win_amd64.pyd" for python in ("cp310", "cp311")}
