@@ -53,7 +53,7 @@ class NetworkOperator(NetworkSettings, CutSettings, SearchInEditMode):
         moved = [task for task in tasks if task.plan and task.plan.changed]
         message = report.network_summary(outcomes, self.noun)
         level = "WARNING" if any(outcome.problem for outcome in outcomes) else "INFO"
-        if not moved:
+        if all(outcome.problem for outcome in outcomes):
             return self.give_up(context, level, message, outcomes)
         for task in moved:
             self._write(task, network_cutting.cut(task.obj, task.plan, self.merge))

@@ -117,7 +117,7 @@ class ContourOutput(CutSettings):
         if any(part.outside for part in parts):
             outputs.select_vertices(context, {part.obj: part.outside for part in parts})
             return self.tell(context, level, message, outcomes)
-        if not outputs.changes_anything(parts, wish):
+        if not outputs.is_possible(parts, wish):
             return self.give_up(context, level, message, outcomes)
         outputs.write(context, parts, wish)
         return self.tell(context, level, message, outcomes)

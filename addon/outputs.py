@@ -77,11 +77,11 @@ def _parting_problem(outcome, beside, leaving, wish):
     return report.hidden_part(outcome) if parts and not outcome.leaving else ""
 
 
-def changes_anything(parts, wish):
-    """Whether the output differs from what is there: a contour that stays is selected already, as given."""
+def is_possible(parts, wish):
+    """Whether anything can be output: a contour round which nothing could be searched is selected already, as given."""
     done = [(outcome, part.mirrored or outcome.closing) for part in parts for outcome in part.done()]
     flags_or_topology = wish.output not in ("SELECT", "CUT")
-    return any(flags_or_topology or added or outcome.result.status != "unchanged" for outcome, added in done)
+    return any(flags_or_topology or added or outcome.result.reason_code != "no_room" for outcome, added in done)
 
 
 def write(context, parts, wish):

@@ -44,6 +44,25 @@ def grooved_cylinder(name="Cylinder", depth=0.3, grooves=(GROOVE,)):
     return mesh_object(name, positions, faces=faces)
 
 
+def torus(major=24, minor=12):
+    """A closed torus of quads."""
+    angles = [(2 * np.pi * i / major, 2 * np.pi * j / minor) for i in range(major) for j in range(minor)]
+    points = [((2 + np.cos(b)) * np.cos(a), (2 + np.cos(b)) * np.sin(a), np.sin(b)) for a, b in angles]
+    corners = [(i, j) for i in range(major) for j in range(minor)]
+
+    def at(i, j):
+        return i % major * minor + j % minor
+
+    return mesh_object(
+        "Torus", points, faces=[(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)) for i, j in corners]
+    )
+
+
+def torus_ring(i, minor=12):
+    """The vertices of a ring the short way round."""
+    return [i * minor + j for j in range(minor)]
+
+
 def mesh_object(name, positions, edges=(), faces=()):
     mesh = bpy.data.meshes.new(name)
     mesh.from_pydata(positions, list(edges), list(faces))

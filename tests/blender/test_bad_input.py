@@ -20,6 +20,8 @@ from made_meshes import (
     ring,
     rough_loop,
     select,
+    torus,
+    torus_ring,
 )
 from minimum_ratio_contours import native
 
@@ -243,7 +245,9 @@ def cylinder_of_loops():
 
 @pytest.mark.parametrize("output", ["SELECT", "CUT"])
 def test_nothing_can_grow(output, last):
-    obj = cylinder_of_loops()
+    obj = torus()
+    edit(obj)
+    select(obj, [pair for i in range(24) for pair in pairs(torus_ring(i))])
     cancelled(obj, output=output, min_salience=0.0)
     assert "no faces around it to search: select fewer contours" in last.message
     assert "beside it kept the search back" in last.message

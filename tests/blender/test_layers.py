@@ -151,7 +151,9 @@ def test_attractors_outweigh_the_least_salience():
     obj = grooved_cylinder(depth=0)
     group(obj, ring(GROOVE - 2))
     start(obj)
-    assert run() == {"CANCELLED"}
+    run()
+    assert heights(obj) != [GROOVE - 2]
+    start(obj)
     run(attractor_group="Group")
     assert heights(obj) == [GROOVE - 2]
 

@@ -105,6 +105,14 @@ def test_an_unchanged_contour_is_output_all_the_same_and_the_report_says_why(las
     assert last.message.startswith("1 contour unchanged (")
 
 
+def test_a_redo_that_finds_nothing_shows_the_given_contour():
+    """Blender puts the former result back where a redo is cancelled."""
+    obj = start(loop=ring(GROOVE))
+    before = everything(obj)
+    assert run() == {"FINISHED"}
+    assert everything(obj) == before
+
+
 def test_several_loops_at_once_move_and_never_cross(last):
     obj = grooved_cylinder(grooves=(5, 15))
     edit(obj)

@@ -158,7 +158,7 @@ def test_nothing_to_optimize(seams, last):
 def test_nothing_better(last):
     obj = start(pairs(ring(GROOVE)))
     before = everything(obj)
-    assert run() == {"CANCELLED"}
+    assert run() == {"FINISHED"}  # a result, whose settings the redo panel may change
     assert last.message == "No better place was found for the seams"
     assert everything(obj) == before
 

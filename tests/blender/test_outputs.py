@@ -22,6 +22,8 @@ from made_meshes import (
     select,
     select_faces_below,
     set_flag,
+    torus,
+    torus_ring,
 )
 from minimum_ratio_contours import contours
 
@@ -44,23 +46,6 @@ def tilted_cylinder(name="Cylinder"):
         vertex.co.x *= factor
         vertex.co.y *= factor
     return obj
-
-
-def torus(major=24, minor=12):
-    angles = [(2 * np.pi * i / major, 2 * np.pi * j / minor) for i in range(major) for j in range(minor)]
-    points = [((2 + np.cos(b)) * np.cos(a), (2 + np.cos(b)) * np.sin(a), np.sin(b)) for a, b in angles]
-    corners = [(i, j) for i in range(major) for j in range(minor)]
-
-    def at(i, j):
-        return i % major * minor + j % minor
-
-    return mesh_object(
-        "Torus", points, faces=[(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)) for i, j in corners]
-    )
-
-
-def torus_ring(i, minor=12):
-    return [i * minor + j for j in range(minor)]
 
 
 def start(make=grooved_cylinder, mode="EDGE", loop=START):
