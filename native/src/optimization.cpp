@@ -228,12 +228,15 @@ void Optimization::because(Reason code, std::string words) {
     result_.reason = std::move(words);
 }
 
-/// Puts the given contour back; the certificate stays that of the best found.
+/// Puts the given contour back. The certificate stays that of the best found, where the given contour is not better still.
 void Optimization::keep_given() {
     result_.contour = given_;
     result_.status = Status::unchanged;
     result_.ratio = result_.initial_ratio;
     result_.objective = result_.initial_objective;
+    const double best = std::min(result_.lower_bound + result_.gap, result_.initial_objective);
+    result_.lower_bound = std::min(result_.lower_bound, result_.initial_objective);
+    result_.gap = best - result_.lower_bound;
 }
 
 void Optimization::explain(const RatioResult& best) {

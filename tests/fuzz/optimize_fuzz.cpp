@@ -22,9 +22,9 @@ double between(FuzzedDataProvider& data, double low, double high) { return data.
 Options made_options(FuzzedDataProvider& data) {
     Options o;
     o.width = maybe(data, data.ConsumeIntegralInRange(1, 8));
-    o.refinement = data.ConsumeIntegralInRange(0, 3);
-    o.iterations = data.ConsumeIntegralInRange(0, 3);
-    o.regular_iterations = data.ConsumeIntegralInRange(0, 2);
+    o.refinement = data.ConsumeIntegralInRange(0, 2);
+    o.iterations = data.ConsumeIntegralInRange(0, 2);
+    o.regular_iterations = data.ConsumeIntegralInRange(0, 1);
     o.flow = data.PickValueInArray({mrc::FlowKind::gates, mrc::FlowKind::arc_length, mrc::FlowKind::harmonic});
     o.ends = data.PickValueInArray({mrc::Ends::edges, mrc::Ends::vertices, mrc::Ends::border});
     o.feature = data.PickValueInArray({mrc::Feature::valley, mrc::Feature::ridge});
