@@ -14,8 +14,8 @@ void check_surface(const Surface& surface);
 /// A contour on the surface that neither meets nor crosses itself, judged by the triangles alone.
 void check_contour(const Surface& surface, const Contour& contour);
 
-/// No two contours meet.
-void check_apart(const Contour& one, const Contour& two);
+/// Whether two contours have no point in common.
+bool apart(const Contour& one, const Contour& two);
 
 /// What holds of every result, whatever the options.
 void check_result(const Surface& surface, const Contour& given, const Options& options, const Wishes& wishes, const Result& result);
