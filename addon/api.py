@@ -5,8 +5,10 @@
 >>> result = api.optimize_contour(bpy.data.objects["Hand"], [12, 13, 40, 39], width=8)
 >>> result.status, result.ratio, result.vertices
 
-The settings are those of `parameters.SETTINGS`, for a mesh object also those of `parameters.CONSTRAINTS`, which name
-its vertex groups, attributes and marked edges. Bad input raises a ValueError that names the elements.
+The settings are those of `parameters.SETTINGS`, with the add-on's defaults, for a mesh object also those of
+`parameters.CONSTRAINTS`, which name its vertex groups, attributes and marked edges. Unknown settings raise a TypeError,
+bad input a ValueError that names the elements. Vertices are ids, (N,) int; lengths are in the mesh's own space, angles
+in radians. Results are those of `mrcontour.optimize`; `help(mrcontour.Result)` explains them.
 """
 
 import bpy
@@ -20,6 +22,8 @@ _kept = {}  # mesh name -> (MeshArrays, Surface), of the meshes of the last call
 def optimize_contour(obj, vertices, closed=True, close=False, **settings):
     """The minimum ratio contour near a given one, given by its vertices in order; the mesh stays as it is.
 
+    `obj` is a mesh object, in Edit Mode or not; a closed contour does not repeat its first vertex. Returns an
+    `mrcontour.Result`.
     With `close`, the vertices are a chain, a quarter of a loop or more, that is closed round its limb first. The
     setting `anchor` says how strongly the result is held near the loop so closed; 0: not at all.
     """
@@ -30,7 +34,7 @@ def optimize_contour(obj, vertices, closed=True, close=False, **settings):
 
 
 def optimize_on(surface, vertices, closed=True, close=False, progress=None, **settings):
-    """The same on a native surface."""
+    """The same on a native surface, of `surface_of`; `progress` and `constraints` as in optimize_all_on."""
     if close:
         closing, progress = jobs.share_of(progress, 0, 2), jobs.share_of(progress, 1, 2)
         loop = native.module().close_contour(surface, vertices, progress=closing)
@@ -43,7 +47,9 @@ def optimize_on(surface, vertices, closed=True, close=False, progress=None, **se
 def optimize_all_on(surface, contours, closed=True, progress=None, constraints=None, **settings):
     """Several contours of a native surface together, which never cross; `closed` is one for all or one for each.
 
-    `progress` is called with the share done; an exception that it raises passes through.
+    `contours` are sequences of vertices or earlier results. `progress` is called with the share done, 0 to 1; where it
+    returns False the search ends, status "cancelled", and an exception that it raises passes through. `constraints` is
+    what `constraints.read` gives. Returns an `mrcontour.Result` for each contour.
     """
     mrc = native.module()
     each_closed = [closed] * len(contours) if isinstance(closed, bool) else closed
@@ -87,7 +93,10 @@ def optimize_segmentation(obj, source="FACE_SETS", attribute="", apply=False, me
 
 
 def curvature(obj, **options):
-    """The native principal curvatures at all vertices; the options are those of mrcontour.Options."""
+    """The native principal curvatures at all vertices, an `mrcontour.Curvature`, in one over the mesh's unit of length.
+
+    The options are those of mrcontour.Options.
+    """
     mesh_access.synchronize(obj)
     mrc = native.module()
     return mrc.curvature(surface_of(obj), mrc.Options(**options))

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes the small .blend files beside this script:
 
-    blender -b --factory-startup --python-exit-code 1 --python blend_samples/make_samples.py
+    blender -b --factory-startup --python-exit-code 1 --python blend_samples/make_samples.py -- [SAMPLE...]
 
 Each holds one mesh with its rough loops as boolean edge attributes `rough_loop.NAME`, all of them selected (so go to
 Edit Mode and press Optimize Contour). Settings that a loop needs besides the add-on's defaults are in the custom
 property `settings.NAME` of the object; `rough_loops` has the rule. Where the construction says where a contour ought
-to land, those edges are in `true_loop.NAME`.
+to land, those edges are in `true_loop.NAME`. The character's rough loops are marked as seams besides;
+`hand_parts` has no loops but ragged materials.
 """
 
 import sys
@@ -50,6 +51,27 @@ CUTS = {
     "groove_cylinder": [Cut("groove", (0.0, 0.0, 0.2), (-0.05, 0.15, 1.0))],
 }
 
+SAMPLES = ("hand", *CUTS, "character", "hand_parts")
+
+
+def both_sides(name, point, normal):
+    """A cut on the character's left, and its twin."""
+    return [
+        Cut(f"{side}_{name}", (sign * point[0], *point[1:]), (sign * normal[0], *normal[1:]))
+        for side, sign in (("left", 1), ("right", -1))
+    ]
+
+
+def character_cuts():
+    """Where a hurried modeler marks the seams of a figure: near the joints, and tilted."""
+    return [
+        Cut("neck", (0.0, 0.0, 13.9), (0.2, 0.2, 1.0)),
+        *both_sides("shoulder", (2.5, 0.0, 11.4), (1.0, 0.3, -0.45)),
+        *both_sides("wrist", (5.6, -0.1, 9.1), (0.5, 0.5, -0.8)),
+        *both_sides("hip", (1.4, 0.0, 6.1), (0.25, 0.2, -1.0)),
+        *both_sides("ankle", (1.55, 0.1, 1.9), (0.2, 0.3, -1.0)),
+    ]
+
 
 def finger_cut(name):
     """A loop half way up a finger, tilted."""
@@ -73,7 +95,9 @@ def groove_bottom():
 
 
 def cuts(sample):
-    return [finger_cut(name) for name in TILTS] if sample == "hand" else CUTS[sample]
+    if sample == "hand":
+        return [finger_cut(name) for name in TILTS]
+    return character_cuts() if sample == "character" else CUTS.get(sample, [])
 
 
 def true_loops(sample, mesh):
@@ -101,6 +125,8 @@ def make(sample):
     ob = getattr(shapes, sample)()
     ob.data.polygons.foreach_set("use_smooth", np.ones(len(ob.data.polygons), bool))
     store_loops(sample, ob)
+    if sample == "character":  # its rough loops are its seams
+        ob.data.edges.foreach_set("use_seam", blender_meshes.read(ob.data.edges, "select", 1, bool))
     ob.select_set(True)
     bpy.context.scene.tool_settings.mesh_select_mode = (False, True, False)
     path = HERE / f"{sample}.blend"
@@ -111,5 +137,5 @@ def make(sample):
 
 
 if __name__ == "__main__":
-    for each in ["hand", *CUTS]:
+    for each in sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else SAMPLES:
         make(each)

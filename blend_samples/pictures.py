@@ -56,8 +56,8 @@ def draw_if_changed(path, ob, up, comparison):
 
 def draw(path, ob, up, comparison):
     """One PNG of a comparison."""
-    with _scratch():
-        halves = _joined(_halves(ob, up, comparison, SIZE, MARGIN), axis=1)
+    with scratch():
+        halves = joined(_halves(ob, up, comparison, SIZE, MARGIN), axis=1)
         heading = [(comparison.heading, BLACK)] if comparison.heading else []
         left = [*heading, (comparison.title, BLACK), (comparison.before, ORANGE)]
         right = [(_legend(comparison), BLACK), (comparison.after, BLUE)]
@@ -76,19 +76,21 @@ def _legend(comparison):
     return ", ".join(parts)
 
 
-def overview_pair(ob, up, comparison):
+def overview_pair(ob, up, comparison, size=OVERVIEW_SIZE):
     """A comparison as a small picture; several are put together by `draw_overview`."""
-    right = OVERVIEW_SIZE + GAP
-    with _scratch():
-        halves = _joined(_halves(ob, up, comparison, OVERVIEW_SIZE, OVERVIEW_MARGIN), axis=1)
-        words = [(0, 4, comparison.title, BLACK), (0, right, "green: faces searched", DARK_GREEN)]
+    right = size + GAP
+    with scratch():
+        halves = joined(_halves(ob, up, comparison, size, OVERVIEW_MARGIN), axis=1)
+        words = [(0, 4, comparison.heading or comparison.title, BLACK)]
+        if not comparison.heading:
+            words += [(0, right, "green: faces searched", DARK_GREEN)]
         words += [(1, 4, comparison.before, ORANGE), (1, right, comparison.after, BLUE)]
         return np.concatenate([halves, captions.strip(halves.shape[1], words)])
 
 
 def draw_sheet(path, drawn):
     """One PNG of pictures that are there already, at half their size."""
-    with _scratch():
+    with scratch():
         halved = [_halved(images.load(picture)[:, :, :3]) for picture in drawn]
     draw_overview(path, halved, SHEET_COLUMNS)
 
@@ -98,16 +100,16 @@ def _halved(pixels):
     return pixels[:height, :width].reshape(height // 2, 2, width // 2, 2, 3).mean(axis=(1, 3))
 
 
-def draw_overview(path, pairs, columns=2):
+def draw_overview(path, pairs, columns=2, shades=SHADES):
     """One PNG of several pairs, in rows, the first at the top left."""
     blank = np.broadcast_to(np.float32(images.PAPER), pairs[0].shape)
     filled = pairs + [blank] * (-len(pairs) % columns)
-    rows = [_joined(filled[i : i + columns], axis=1) for i in range(0, len(filled), columns)]
-    with _scratch():
-        images.save(np.round(np.concatenate(rows[::-1]) * SHADES) / SHADES, path)
+    rows = [joined(filled[i : i + columns], axis=1) for i in range(0, len(filled), columns)]
+    with scratch():
+        images.save(np.round(np.concatenate(rows[::-1]) * shades) / shades, path)
 
 
-def _joined(parts, axis):
+def joined(parts, axis):
     """Pictures side by side with a gap between them."""
     gap = np.ones((len(parts[0]), GAP, 3), np.float32)
     spaced = [piece for part in parts for piece in (gap, part)][1:]
@@ -115,7 +117,7 @@ def _joined(parts, axis):
 
 
 @contextmanager
-def _scratch():
+def scratch():
     """Removes at its end all that was made in it."""
     data = bpy.data
     kinds = (data.scenes, data.objects, data.meshes, data.curves, data.materials, data.cameras, data.images)
@@ -132,16 +134,16 @@ def _halves(ob, up, comparison, size, margin):
     mesh = _coloured_copy(scene, ob, comparison.searched)
     given, found = comparison.given, comparison.found
     view = views.best_view(mesh, comparison.in_view or given + found, up, margin)
-    _set_up(scene, view, size)
+    set_up(scene, view, (size, size))
     thickness = view.width * (SIZE / size) ** 0.5  # lines of small pictures are a little thicker
     given_tubes = _tubes(scene, given, ORANGE, 0.0060 * thickness)
     _balls(scene, mesh, comparison.held, 0.0160 * thickness)
     before = images.render(scene)
-    for tube in given_tubes:
-        tube.data.bevel_depth = 0.0035 * thickness
+    for drawn in given_tubes:
+        drawn.data.bevel_depth = 0.0035 * thickness
     _tubes(scene, found, BLUE, 0.0070 * thickness)
     for truth in comparison.truths:  # on top, for where it is the contour found
-        _tube(scene, truth, BLACK, 0.0022 * thickness, lift=0.0130 * thickness)
+        tube(scene, truth, BLACK, 0.0022 * thickness, lift=0.0130 * thickness)
     return before, images.render(scene)
 
 
@@ -159,8 +161,8 @@ def _coloured_copy(scene, ob, band):
     return mesh
 
 
-def _set_up(scene, view, size):
-    images.workbench(scene, size, size)
+def set_up(scene, view, size):
+    images.workbench(scene, *size)
     shading = scene.display.shading
     shading.show_cavity, shading.cavity_type = True, "WORLD"
     shading.show_shadows = False
@@ -172,10 +174,10 @@ def _set_up(scene, view, size):
 
 
 def _tubes(scene, curves, colour, radius):
-    return [_tube(scene, curve, colour, radius, lift=radius) for curve in curves]
+    return [tube(scene, curve, colour, radius, lift=radius) for curve in curves]
 
 
-def _tube(scene, curve, colour, radius, lift):
+def tube(scene, curve, colour, radius, lift):
     """A tube along a curve, lifted off the surface."""
     data = bpy.data.curves.new("contour", "CURVE")
     data.dimensions, data.bevel_depth, data.bevel_resolution = "3D", radius, 2

@@ -17,6 +17,9 @@ import stamps
 from curves import mean_distance
 from figures import FIGURES
 
+SHOWN = {"1.1": 3}  # of each figure's searches the one in the small picture, where it is not the last
+SMALL, SHADES = 150, 20  # of it: pixels of a half, and shades of each colour
+
 
 def run(output, only, mrc):
     """The figures wanted; gives the lines of the table and the failures."""
@@ -47,6 +50,36 @@ def run_figure(figure, output, mrc, drawn):
         drawn.append(output / f"{figure.name}.{name}.png")
         pictures.draw_if_changed(drawn[-1], ob, figure.up, comparison)
     return [line(figure, ob.data, *each) for each in zip(figure.searches, results, comparisons)]
+
+
+def draw_selection(path, mrc):
+    """One small picture of all figures, a search of each."""
+    made_of = stamps.stamp([], [shown_search(name, mrc, stamp_of) for name in FIGURES])
+    stamps.draw_if_changed(path, made_of, lambda: draw_pairs(path, mrc))
+
+
+def draw_pairs(path, mrc):
+    pairs = [shown_search(name, mrc, small_pair) for name in FIGURES]
+    pictures.draw_overview(path, pairs, pictures.SHEET_COLUMNS, SHADES)
+
+
+def shown_search(name, mrc, use):
+    """What is made of a figure's object, its upward axis and the comparison of the search that is shown."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    figure = FIGURES[name]()
+    ob = blender_meshes.new_object(f"figure {name}", figure.positions, figure.faces)
+    search, surface = figure.searches[SHOWN.get(name, -1)], native_surface(figure, mrc)
+    comparison = compare(figure, ob.data, search, optimize(surface, search, mrc), surface, mrc)
+    comparison.before, comparison.after = "given", "found"
+    return use(ob, figure.up, comparison)
+
+
+def stamp_of(ob, _, comparison):
+    return comparison.stamp(blender_meshes.polygons(ob.data))
+
+
+def small_pair(ob, up, comparison):
+    return pictures.overview_pair(ob, up, comparison, SMALL)
 
 
 def native_surface(figure, mrc):

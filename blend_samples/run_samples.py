@@ -3,9 +3,11 @@
 
     blender -b --factory-startup --python-exit-code 1 --python blend_samples/run_samples.py -- --output build/samples
 
-`--only figures` runs just the figures of the thesis, `--only 5.4` one of them.
+`--only figures` runs just the figures of the thesis, `--only 5.4` one of them, `--only gallery` just the gallery.
+Pictures that have not changed are drawn again with `--redraw` alone.
 
-With `--overview blend_samples/pictures/overview.png` it draws the picture of the README instead, and nothing else.
+With `--overview blend_samples/pictures/overview.png` it draws the picture of the README instead, and nothing else; with
+`--gallery blend_samples/pictures` the pictures of the gallery.
 
 BLENDER_USER_SCRIPTS names the folder whose `addons` holds the add-on with its native module. Every contour goes the way
 of a modeler, through the operator in Edit Mode with output Seam; the numbers are those of the add-on's `api` for the
@@ -28,10 +30,12 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 
 import blender_meshes  # noqa: E402
+import gallery  # noqa: E402
 import pictures  # noqa: E402
 import real_meshes  # noqa: E402
 import report  # noqa: E402
 import run_figures  # noqa: E402
+import stamps  # noqa: E402
 from curves import mean_distance  # noqa: E402
 from rough_loops import rough_loop, settings  # noqa: E402
 
@@ -62,6 +66,7 @@ def made_sample(path):
     ob = bpy.context.view_layer.objects.active
     loops = blender_meshes.stored_loops(ob.data, blender_meshes.ROUGH)
     truths = blender_meshes.stored_loops(ob.data, blender_meshes.TRUE)
+    ob.data.edges.foreach_set("use_seam", np.zeros(len(ob.data.edges), bool))  # there will be those found alone
     return Sample(path.stem, ob, loops, stored_settings(ob, loops), truths, (0, 0, 1))
 
 
@@ -88,7 +93,9 @@ def samples(only, output):
     """One after the other, as each replaces the file that is open; with the add-on enabled."""
     for path in sorted(HERE.glob("*.blend")):
         if only in (None, path.stem):
-            yield made_sample(path)
+            sample = made_sample(path)
+            if sample.loops:
+                yield sample
     wanted = [name for name in real_meshes.CUTS if only in (None, name)]
     if wanted:
         with real_meshes.open_archive(output / "libcgal-demo") as archive:
@@ -191,9 +198,34 @@ def run(output, only):
                 traceback.print_exc()
                 failures.append(f"{sample.name}, {name}: {error}")
         save(sample, output)
-    for part, found in zip((rows, failures), run_figures.run(output / "figures", only, mrc)):
-        part.extend(found)
+    others = [run_gallery(output / "gallery", only), run_figures.run(output / "figures", only, mrc)]
+    for found_rows, found_failures in others:
+        rows += found_rows
+        failures += found_failures
     return rows, failures
+
+
+def run_gallery(output, only=None):
+    """The gallery's jobs; gives the lines of the table and the failures."""
+    rows, failures = [], []
+    for job, sample in gallery.JOBS.items():
+        if only not in (None, "gallery", job):
+            continue
+        try:
+            api, _ = enable_addon()
+            rows += getattr(gallery, job)(HERE / f"{sample}.blend", output, api)
+        except Exception as error:  # as above
+            traceback.print_exc()
+            failures.append(f"{job}: {error}")
+    return rows, failures
+
+
+def draw_gallery(folder, only):
+    """The gallery's pictures, and one of the figures."""
+    rows, failures = run_gallery(folder, only)
+    if only in (None, "figures"):
+        run_figures.draw_selection(folder / "figures.png", enable_addon()[1])
+    finish(rows, failures)
 
 
 def draw_overview(path):
@@ -226,17 +258,27 @@ def main():
     task = parser.add_mutually_exclusive_group(required=True)
     task.add_argument("--output", type=Path, help="folder for .blend files, pictures and the table")
     task.add_argument("--overview", type=Path, metavar="PATH", help="draw just the picture of the README")
+    task.add_argument("--gallery", type=Path, metavar="FOLDER", help="draw just the gallery's pictures, there")
+    parser.add_argument("--redraw", action="store_true", help="draw pictures again that have not changed")
     parser.add_argument("--only", metavar="NAME", help="just this sample or figure")
     arguments = parser.parse_args(sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else [])
+    stamps.redraw = arguments.redraw
     if arguments.overview:
         return draw_overview(arguments.overview.resolve())
+    if arguments.gallery:
+        return draw_gallery(arguments.gallery.resolve(), arguments.only)
     output = arguments.output.resolve()
     output.mkdir(parents=True, exist_ok=True)
     rows, failures = run(output, arguments.only)
     report.write(output, rows)
+    finish(rows, failures or ([] if rows else [f"nothing is called {arguments.only}"]))
+
+
+def finish(rows, failures):
+    """Prints the table and what failed."""
     print("\n".join(report.lines(rows)))
     print(f"{len(rows)} contours done, {len(failures)} failed.", *failures, sep="\n")
-    if failures or not rows:
+    if failures:
         raise SystemExit(1)
 
 

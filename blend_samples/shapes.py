@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The made samples' shapes, from Blender's own primitives, modifiers and metaballs. Lengths in centimetres, z up.
 
-Every function gives a new mesh object; `hand`'s fingers and `groove_cylinder`'s groove are known by construction, so
-that one can say where a contour ought to land.
+Every function that makes a sample gives a new mesh object; `hand`'s fingers and `groove_cylinder`'s groove are known by
+construction, so that one can say where a contour ought to land.
 """
 
 from math import cos, radians, sin
@@ -24,6 +24,29 @@ FINGERS = {
 HAND_VOXEL = 0.22  # about the hand's edge length
 KNUCKLE = 1.25  # times the finger's radius: the ball of the palm that the finger leaves
 GROOVE = {"height": 0.0, "slope": 0.45, "depth": 0.22, "sigma": 0.22}
+# The character's limbs, on its left: places along the axis and radii there, from the body outwards.
+ARM = (((2.4, 0.0, 11.9), 1.0), ((4.1, 0.1, 10.3), 0.75), ((6.0, -0.2, 8.7), 0.45))
+LEG = (((1.25, 0.0, 7.2), 1.10), ((1.45, -0.1, 4.3), 0.85), ((1.55, 0.1, 1.6), 0.55))
+# Its balls: place and the three radii; those of x > 0 have a twin on the right.
+BODY_BALLS = {
+    "belly": ((0.0, 0.0, 8.4), (2.65, 1.9, 2.0)),
+    "chest": ((0.0, 0.0, 11.2), (2.0, 1.5, 2.1)),
+    "head": ((0.0, -0.1, 16.0), (2.1, 2.0, 2.2)),
+    "nose": ((0.0, -2.1, 15.7), (0.35, 0.4, 0.4)),
+    "ear": ((2.05, 0.1, 16.0), (0.35, 0.5, 0.7)),
+    "hand": ((6.75, -0.3, 7.9), (1.0, 0.75, 1.0)),
+    "thumb": ((6.15, -0.95, 7.75), (0.35, 0.65, 0.35)),
+    "foot": ((1.7, -0.8, 0.65), (0.95, 1.75, 0.75)),
+}
+RAGGED = 0.9  # how far above a finger's base the rough segmentation ends, in the mean
+PART_COLOURS = {  # red, green, blue
+    "palm": (0.93, 0.84, 0.70),
+    "index": (0.88, 0.20, 0.14),
+    "middle": (1.0, 0.66, 0.08),
+    "ring": (0.22, 0.60, 0.25),
+    "little": (0.15, 0.42, 0.80),
+    "thumb": (0.52, 0.25, 0.68),
+}
 CYLINDER = {"radius": 2.0, "height": 8.0, "around": 64, "along": 80}
 
 
@@ -79,16 +102,21 @@ def _finger_distance(name, points):
 
 
 def _add_finger(bm, name):
-    _, axis = finger_axis(name)
+    base, axis = finger_axis(name)
     length, base_radius, tip_radius = FINGERS[name][2:]
-    base, tip = finger_axis(name)[0], finger_axis(name)[0] + axis * (length - tip_radius)
-    turn = axis.to_track_quat("Z", "Y").to_matrix().to_4x4()
-    middle = Matrix.Translation((base + tip) / 2) @ turn
-    depth = (tip - base).length
-    bmesh.ops.create_cone(
-        bm, cap_ends=True, segments=48, radius1=base_radius, radius2=tip_radius, depth=depth, matrix=middle
-    )
+    tip = base + axis * (length - tip_radius)
+    _add_cone(bm, (base, base_radius), (tip, tip_radius))
     _add_ball(bm, tip, tip_radius)
+
+
+def _add_cone(bm, joint, following):
+    """Between two joints, each a place and the radius there."""
+    (start, radius1), (end, radius2) = joint, following
+    axis = Vector(end) - Vector(start)
+    turned = Matrix.Translation((Vector(start) + Vector(end)) / 2) @ axis.to_track_quat("Z", "Y").to_matrix().to_4x4()
+    bmesh.ops.create_cone(
+        bm, cap_ends=True, segments=48, radius1=radius1, radius2=radius2, depth=axis.length, matrix=turned
+    )
 
 
 def _add_ball(bm, place, radius):
@@ -137,6 +165,54 @@ def head():
     balls += [((side * 2.75, 0.2, -0.5), 1.0, (0.55, 0.8, 1.3)) for side in (-1, 1)]
     hollows = [((side * 1.25, -3.5, 0.3), 0.9, (1.0, 0.9, 0.7)) for side in (-1, 1)]
     return _remeshed(_from_metaballs("head", balls, hollows), voxel=0.16, smoothing=5)
+
+
+def character():
+    """A figure of balls and of limbs that thin out towards wrists and ankles, joined at creases."""
+    bm = bmesh.new()
+    _add_cone(bm, ((0.0, 0.0, 12.4), 0.85), ((0.0, 0.0, 14.6), 0.85))
+    for place, radii in BODY_BALLS.values():
+        for side in (1, -1) if place[0] else (1,):
+            scaled = _scaled(_mirrored(place, side), radii)
+            bmesh.ops.create_uvsphere(bm, u_segments=32, v_segments=24, radius=1.0, matrix=scaled)
+    for limb in (ARM, LEG):
+        for side in (1, -1):
+            joints = [(_mirrored(place, side), radius) for place, radius in limb]
+            for joint, following in zip(joints, joints[1:]):
+                _add_cone(bm, joint, following)
+            for joint in joints[:2]:
+                _add_ball(bm, *joint)
+    return _remeshed(_object("character", bm), voxel=0.2, smoothing=4)
+
+
+def _mirrored(place, side):
+    return (side * place[0], *place[1:])
+
+
+def hand_parts():
+    """The hand with a material for each part, as a rough segmentation leaves them: ragged and too high up."""
+    ob = hand()
+    ob.name = ob.data.name = "hand_parts"
+    for name in ("palm", *FINGERS):
+        ob.data.materials.append(bpy.data.materials.new(name))
+        ob.data.materials[-1].diffuse_color = (*PART_COLOURS[name], 1.0)
+    centres = np.array([face.center for face in ob.data.polygons])
+    ob.data.polygons.foreach_set("material_index", rough_labels(centres))
+    return ob
+
+
+def rough_labels(points):
+    """For each point 0 for the palm or the number of its finger, from 1 on."""
+    nearest, labels = parts_of_hand(points), np.zeros(len(points), np.int32)
+    for number, name in enumerate(FINGERS, 1):
+        base, axis = (np.array(vector) for vector in finger_axis(name))
+        along = (points - base) @ axis
+        x, y = points[:, 0] - base[0] - along * axis[0], points[:, 1]
+        angle = np.arctan2(y, x)
+        ragged = 0.35 * np.sin(9 * angle) + 0.2 * np.sin(4 * angle + number)
+        leaves = (finger_point(name, 0.0) - finger_axis(name)[0]).length
+        labels[(nearest == name) & (along > leaves + RAGGED + ragged)] = number
+    return labels
 
 
 def suzanne():

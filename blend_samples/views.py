@@ -26,7 +26,7 @@ def best_view(mesh, curves, up, margin):
     mesh.calc_loop_triangles()
     positions = blender_meshes.read(mesh.vertices, "co", 3, np.float64)
     direction = _best_direction(mesh, positions, curves, np.asarray(up, float))
-    right, top = _frame(direction, up)
+    right, top = frame(direction, up)
     flat = np.stack([right, top], axis=1)
     shown = np.concatenate([curve.points for curve in curves]) @ flat
     low, high = shown.min(axis=0), shown.max(axis=0)
@@ -38,7 +38,7 @@ def best_view(mesh, curves, up, margin):
     return View(matrix, width, near - far + 2 * width)
 
 
-def _frame(view, up):
+def frame(view, up):
     right = np.cross(up, view)
     right /= np.linalg.norm(right)
     return right, np.cross(view, right)

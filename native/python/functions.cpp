@@ -215,7 +215,7 @@ void bind_functions(py::module_& module) {
     const Options defaults;
     py::class_<PyCurvature>(module, "Curvature", "Principal curvatures over all vertices, positive where convex (3.4).")
         .def_readonly("kappa_min", &PyCurvature::kappa_min, "(V,) float64, one over the unit of length.")
-        .def_readonly("kappa_max", &PyCurvature::kappa_max, "(V,) float64.")
+        .def_readonly("kappa_max", &PyCurvature::kappa_max, "(V,) float64, one over the unit of length.")
         .def_readonly("direction_min", &PyCurvature::direction_min, "(V, 3) float64, unit tangents; they run along ridges.")
         .def_readonly("direction_max", &PyCurvature::direction_max, "(V, 3) float64, unit tangents; they run along valleys.");
     const py::tuple nothing;
@@ -225,11 +225,13 @@ void bind_functions(py::module_& module) {
         py::arg("attractors") = nothing, py::arg("barriers") = nothing, py::arg("region_density") = py::none(),
         py::arg("scales") = py::none(), py::arg("progress") = py::none(), py::arg("edge_vertices") = py::none(),
         py::arg("edge_parameters") = py::none(),
-        "Moves a contour to the one of least ratio in a band around it.\n\n"
+        "Moves a contour to the one of least ratio in a band around it (Clements 2006, chapter 4).\n\n"
+        "surface: a Surface; closed: a loop, or an open curve; options: an Options.\n"
         "vertices: (N,) ids in order along real edges; a closed contour does not repeat its first; or an earlier Result.\n"
         "edge_vertices, edge_parameters: (N, 2) and (N,), a contour across faces: point i lies at (1 - t) a + t b.\n"
         "required_vertices, required_edges: ids and (n, 2) vertex pairs that the contour must hold (4.4).\n"
-        "attractors: (vertex, radius, strength) or (vertex, radius, strength, sigma), soft constraints (4.5).\n"
+        "attractors: (vertex, radius, strength) or (vertex, radius, strength, sigma), soft constraints (4.5): radius and sigma in\n"
+        "the mesh's unit, sigma half the radius where it is not given; strength in K, below 0 it pushes off.\n"
         "barriers: (n, 2) vertex pairs, edges that no contour crosses.\n"
         "region_density: (F,) float64 per area, closed contours: with the option region_weight its change on the side region_side\n"
         "weighs (6.1.2).\n"
@@ -252,10 +254,11 @@ void bind_functions(py::module_& module) {
         "results do not depend on the order of the contours, nor on the option threads.\n"
         "Returns a list of Results; held_back_by says which other contours kept one's band from growing. Raises what optimize\n"
         "raises, naming the contour by its place in the list.");
-    module.def("measure", &measure, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true,
-               py::arg("options") = defaults, py::arg("attractors") = nothing, py::arg("region_density") = py::none(),
-               py::arg("scales") = py::none(), py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
-               "The ratio of a contour, without optimising (eq. 3.3).");
+    module.def(
+        "measure", &measure, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true,
+        py::arg("options") = defaults, py::arg("attractors") = nothing, py::arg("region_density") = py::none(),
+        py::arg("scales") = py::none(), py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
+        "The ratio of a contour, without optimising (eq. 3.3). Arguments and errors are those of optimize; returns a Measure.");
     module.def(
         "close_contour", &close_contour, py::arg("surface"), py::arg("vertices"), py::arg("progress") = py::none(),
         "Closes an open chain round the limb that it lies on, so that part of a loop drawn by hand is enough.\n\n"
@@ -266,14 +269,18 @@ void bind_functions(py::module_& module) {
         "Returns (n,) int32: the closed contour, which begins with the chain. The way back is the path that is cheapest where\n"
         "the surface is far from the chain and faces away from it (Lee et al. 2004). Give it to optimize. Raises ValueError\n"
         "where nothing leads round, as on a plane.");
-    module.def("curvature", &curvature, py::arg("surface"), py::arg("options") = defaults, py::arg("scales") = py::none(),
-               "The curvatures at all vertices; without scales, h is the surface's mean edge length.");
-    module.def("band", &band, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true,
-               py::arg("options") = defaults, py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
-               "(n,) int32: the faces that optimize searches first, ascending.");
+    module.def(
+        "curvature", &curvature, py::arg("surface"), py::arg("options") = defaults, py::arg("scales") = py::none(),
+        "The curvatures at all vertices (3.4), a Curvature; without scales, h is the surface's mean edge length. Of the options\n"
+        "it reads curvature_radius and curvature_smoothing.");
+    module.def(
+        "band", &band, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true,
+        py::arg("options") = defaults, py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
+        "(n,) int32: the faces that optimize searches first, ascending (4.2.1). Arguments and errors are those of optimize.");
     module.def("search_space", &search_space, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true,
                py::arg("options") = defaults, py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
-               "All that one search with these width and refinement builds, as a dict of arrays: for display and tests.\n\n"
+               "All that one search with these width and refinement builds, as a dict of arrays: for display and tests.\n"
+               "Arguments and errors are those of optimize.\n\n"
                "faces, vertices, side, round, left, right, strips, triangles: the band. edges, increments, diagonal: the flow.\n"
                "points, parameters, nodes, arcs, f, g, cut, level: the graph, nodes as pairs of vertices (refined: of points) in "
                "topological order.");

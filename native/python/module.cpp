@@ -11,8 +11,10 @@ PYBIND11_MODULE(mrcontour, module) {
         "Make a Surface from arrays, then call optimize. Lengths are in the mesh's own unit, curvatures in one over it, angles\n"
         "in radians. Invalid input is a ValueError that names the elements; unknown options are a TypeError.";
     module.attr("__version__") = MRC_VERSION;
-    py::register_exception<mrc::Infeasible>(module, "Infeasible", PyExc_ValueError);
-    py::register_exception<mrc::TooLarge>(module, "TooLarge", PyExc_ValueError);
+    py::register_exception<mrc::Infeasible>(module, "Infeasible", PyExc_ValueError).attr("__doc__") =
+        "No contour of the band has all required elements (4.4). The message says where the search stops.";
+    py::register_exception<mrc::TooLarge>(module, "TooLarge", PyExc_ValueError).attr("__doc__") =
+        "The search would take more memory than there is. The message says what to lower.";
     mrc_python::bind_surface(module);
     mrc_python::bind_options(module);
     mrc_python::bind_results(module);

@@ -165,7 +165,9 @@ Options make_options(const py::kwargs& given) {
 
 std::string documentation() {
     const Options defaults;
-    std::string text = "The settings of the method, all given by keyword; unknown ones are a TypeError. With their defaults:\n\n";
+    std::string text =
+        "The settings of the method, all given by keyword. Unknown ones and wrong types are a TypeError, values out of range a\n"
+        "ValueError. Sections and equations are those of Clements 2006. With their defaults:\n\n";
     for (const Row& row : rows()) {
         text += std::string(row.name) + " = " + std::string(py::repr(row.get(defaults))) + ": " + row.meaning + ".\n";
     }
@@ -198,9 +200,11 @@ void bind_options(py::module_& module) {
     py::options own_signatures;
     own_signatures.disable_function_signatures();
     options.def(py::init(&make_options), constructor_signature().c_str());
+    const Options defaults;
     for (const Row& row : rows()) {
-        const std::string signature = "(self: mrcontour.Options) -> " + row.type;
-        options.def_property_readonly(row.name, py::cpp_function(row.get, signature.c_str()));
+        const std::string value = py::repr(row.get(defaults));
+        const std::string text = "(self: mrcontour.Options) -> " + row.type + "\n\n" + row.meaning + ". Default: " + value + ".";
+        options.def_property_readonly(row.name, py::cpp_function(row.get, text.c_str()));
     }
 }
 

@@ -79,27 +79,33 @@ Dict statistics(const PyResult& r) {
 }
 
 void bind_scales(py::module_& module) {
-    py::class_<Scales>(module, "Scales", "The scales of a contour, fixed before its first iteration.")
-        .def_readonly("h", &Scales::h, "Mean edge length within 4 rings of the contour.")
-        .def_readonly("K", &Scales::K, "Area-weighted mean of |kappa_min| there, at least 0.01 / L0.")
-        .def_readonly("kappa_0", &Scales::kappa_0, "The constant of eq. 3.2.")
-        .def_readonly("L0", &Scales::L0, "Length of the contour.")
+    py::class_<Scales>(
+        module, "Scales",
+        "The scales of a contour, fixed before its first iteration. K and kappa_0 are in one over the mesh's unit of length.")
+        .def_readonly("h", &Scales::h, "Mean edge length within 4 rings of the contour, in the mesh's unit.")
+        .def_readonly("K", &Scales::K, "Area-weighted mean of |kappa_min| there (ridge: |kappa_max|), at least 0.01 / L0.")
+        .def_readonly("kappa_0", &Scales::kappa_0, "The constant of eq. 3.2: kappa0_factor K.")
+        .def_readonly("L0", &Scales::L0, "Length of the contour, in the mesh's unit.")
         .def_readonly("clamp", &Scales::clamp, "Where the size of feature curvatures is cut off; infinity: nowhere.")
-        .def_readonly("n0", &Scales::n0, "Its number of arcs.")
+        .def_readonly("n0", &Scales::n0, "Its number of arcs, with the Steiner points of the run.")
         .def_property_readonly(
-            "given", [](const Scales& s) { return contour_vertices(s.given); }, "The contour's vertices, int32.")
+            "given", [](const Scales& s) { return contour_vertices(s.given); },
+            "(N,) int32: the contour's vertices; -1 for points between vertices.")
         .def_property_readonly(
-            "given_edge_vertices", [](const Scales& s) { return edge_vertices(s.given); }, "(N, 2) int32.")
+            "given_edge_vertices", [](const Scales& s) { return edge_vertices(s.given); }, "(N, 2) int32, as Result.edge_vertices.")
         .def_property_readonly(
-            "given_edge_parameters", [](const Scales& s) { return edge_parameters(s.given); }, "(N,) float64.");
+            "given_edge_parameters", [](const Scales& s) { return edge_parameters(s.given); },
+            "(N,) float64, as Result.edge_parameters.");
 }
 
 void bind_measure(py::module_& module) {
     py::class_<mrc::Measure>(module, "Measure", "The energy of a contour (eq. 3.3).")
-        .def_readonly("ratio", &mrc::Measure::ratio, "numerator / length")
-        .def_readonly("numerator", &mrc::Measure::numerator)
-        .def_readonly("length", &mrc::Measure::length)
-        .def_readonly("objective", &mrc::Measure::objective, "What is minimised.");
+        .def_readonly("ratio", &mrc::Measure::ratio, "numerator / length, in one over the mesh's unit of length.")
+        .def_readonly("numerator", &mrc::Measure::numerator, "The sum of f over the arcs (eq. 3.2), without unit.")
+        .def_readonly("length", &mrc::Measure::length, "The sum of g over the arcs (eq. 3.1), in the mesh's unit.")
+        .def_readonly(
+            "objective", &mrc::Measure::objective,
+            "What is minimised: the ratio, or with a length bias ratio / K + length_bias max(length / L0, length_floor).");
 }
 
 template <class Value>
@@ -135,12 +141,16 @@ void bind_results(py::module_& module) {
             "The same for programs: 'already_best', 'not_salient', 'no_room', 'against_flow', 'no_neighbour', 'shared_faces', "
             "'none_refined', 'cancelled', or empty.")
         .def_property_readonly("reason", field(&mrc::Result::reason), "Why the given contour is returned, in words.")
-        .def_property_readonly("ratio", field(&mrc::Result::ratio))
-        .def_property_readonly("initial_ratio", field(&mrc::Result::initial_ratio))
-        .def_property_readonly("objective", field(&mrc::Result::objective))
-        .def_property_readonly("initial_objective", field(&mrc::Result::initial_objective))
-        .def_property_readonly("salience", field(&mrc::Result::salience),
-                               "Minus the ratio over K of the best found, even where the given contour is returned.")
+        .def_property_readonly("ratio", field(&mrc::Result::ratio), "Of the contour returned (eq. 3.3); the lower, the better.")
+        .def_property_readonly("initial_ratio", field(&mrc::Result::initial_ratio), "Of the given contour.")
+        .def_property_readonly(
+            "objective", field(&mrc::Result::objective),
+            "What is minimised, of the contour returned: the ratio, or with a length bias a number without unit.")
+        .def_property_readonly("initial_objective", field(&mrc::Result::initial_objective), "Of the given contour.")
+        .def_property_readonly(
+            "salience", field(&mrc::Result::salience),
+            "Minus the ratio over K of the best found, even where the given contour is returned: above 2 nearly always right, "
+            "below 0.5 seldom.")
         .def_property_readonly("lower_bound", field(&mrc::Result::lower_bound),
                                "No contour of the last iteration's graph has a lower objective.")
         .def_property_readonly("gap", field(&mrc::Result::gap), "Objective of the best found minus lower_bound.")
@@ -148,10 +158,16 @@ void bind_results(py::module_& module) {
             "held_back_by", [](const PyResult& r) { return py::typing::Tuple<int, py::ellipsis>(py::cast(r.result.held_back_by)); },
             "tuple of int: of optimize_all's contours those that kept this one's last band from growing, by their place in the "
             "list.")
-        .def_property_readonly("history", field(&mrc::Result::history), "Objective before the first and after each iteration.")
-        .def_property_readonly("scales", field(&mrc::Result::scales))
-        .def_property_readonly("statistics", &statistics)
-        .def_property_readonly("closed", [](const PyResult& r) { return r.result.contour.closed; })
+        .def_property_readonly("history", field(&mrc::Result::history),
+                               "list of float: the objective before the first and after each iteration.")
+        .def_property_readonly("scales", field(&mrc::Result::scales),
+                               "The Scales of the given contour; give them back to go on from here.")
+        .def_property_readonly(
+            "statistics", &statistics,
+            "dict: faces, cut, nodes, arcs, linear_steps and passes of the last iteration, as in tables 5.1 and 5.2; iterations, "
+            "done in all; seconds, a dict of the time of each stage.")
+        .def_property_readonly(
+            "closed", [](const PyResult& r) { return r.result.contour.closed; }, "bool: a loop, or an open curve.")
         .def_property_readonly(
             "vertices", [](const PyResult& r) { return contour_vertices(r.result.contour); },
             "(N,) int32: vertex ids in order, in the given direction; -1 for the points of a refined contour between vertices.")
@@ -163,7 +179,7 @@ void bind_results(py::module_& module) {
             "(N,) float64: t of each point.")
         .def_property_readonly(
             "positions", [](const PyResult& r) { return rows_of_three(r.positions, [](const mrc::Vec3& p) { return p; }); },
-            "(N, 3) float64.")
+            "(N, 3) float64: the points in space, in the mesh's unit.")
         .def_property_readonly(
             "segment_faces", [](const PyResult& r) { return to_array(r.segment_faces); },
             "(N,) int32: a face that holds the segment from each point to the next; along an edge the left one.")

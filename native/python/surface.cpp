@@ -56,19 +56,19 @@ std::unique_ptr<mrc::Surface> make_surface(const py::object& positions, const py
 void bind_surface(py::module_& module) {
     py::class_<mrc::Surface>(module, "Surface",
                              "A validated, immutable mesh with its adjacency. It keeps copies: the arrays may change afterwards.\n"
-                             "It may be used from several threads.")
+                             "It may be used from several threads at once.")
         .def(py::init(&make_surface), py::arg("positions"), py::arg("face_offsets"), py::arg("face_vertices"),
              py::arg("triangles") = py::none(), py::arg("hidden_faces") = py::none(),
-             "positions: (V, 3) float64.\n"
+             "positions: (V, 3) float64, in any unit of length.\n"
              "face_offsets: (F + 1,) int32; face i is face_vertices[face_offsets[i]:face_offsets[i + 1]]. None: all triangles.\n"
              "face_vertices: (sum of corners,) int32, or (F, 3) where face_offsets is None.\n"
              "triangles: (T, 3) int32, n - 2 for each face of n corners, in face order; None: made here.\n"
              "hidden_faces: ids, or a mask of F bools: faces that no band enters.\n"
              "Raises ValueError naming the elements: indices out of range, positions that are not finite or beyond 1e50, faces\n"
              "with fewer than three or with repeated vertices, triangles that are no triangulation of their faces.")
-        .def_property_readonly("vertex_count", &mrc::Surface::vertex_count)
-        .def_property_readonly("face_count", &mrc::Surface::face_count)
-        .def_property_readonly("edge_count", &mrc::Surface::edge_count, "Real edges and diagonals.")
+        .def_property_readonly("vertex_count", &mrc::Surface::vertex_count, "V, those in no face too.")
+        .def_property_readonly("face_count", &mrc::Surface::face_count, "F, hidden faces too.")
+        .def_property_readonly("edge_count", &mrc::Surface::edge_count, "Real edges, and the diagonals of the triangulation.")
         .def("__repr__", [](const mrc::Surface& s) {
             return "<mrcontour.Surface: " + std::to_string(s.vertex_count()) + " vertices, " + std::to_string(s.face_count()) +
                    " faces>";

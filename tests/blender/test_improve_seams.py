@@ -3,6 +3,8 @@
 
 import importlib
 import json
+import re
+import shlex
 import sys
 from pathlib import Path
 from types import SimpleNamespace
@@ -12,6 +14,7 @@ import pytest
 from made_meshes import GROOVE, edge_set, edit, grooved_cylinder, pairs, ring, rough_loop, set_flag
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "blend_samples"))
+README = Path(__file__).resolve().parents[2] / "README.md"
 improve_seams = importlib.import_module("improve_seams")
 
 START = rough_loop(GROOVE - 3)
@@ -57,6 +60,18 @@ def test_seams_move_and_the_other_file_has_them(files, monkeypatch, capfd):
     assert found["Plain"] == []
     assert seams(written) == edge_set(ring(GROOVE))
     assert seams(given) == edge_set(START)
+
+
+def test_the_readme_s_command_line(files, monkeypatch, capfd):
+    given, written = files
+    (line,) = re.findall(r"^    (blender .*improve_seams.py.*)$", README.read_text(encoding="utf-8"), re.MULTILINE)
+    words = shlex.split(line)
+    assert (README.parent / words[words.index("--python") + 1]).samefile(improve_seams.__file__)
+    places = {"in.blend": given, "out.blend": written}
+    arguments = [places.get(word, word) for word in words[words.index("--") + 1 :]]
+    code, summary = run(monkeypatch, capfd, *arguments)
+    assert (code, summary["output"]) == (0, str(written))
+    assert seams(written) == edge_set(ring(GROOVE))
 
 
 def test_only_the_named_objects(files, monkeypatch, capfd):

@@ -65,6 +65,6 @@ def test_mistakes_are_found_where_they_are(python, tmp_path):
     assert wrong == set(range(first, first + len(MISTAKES)))
 
 
-def test_the_example_runs_with_the_wheel(python):
-    run = subprocess.run([python, "-c", example()], capture_output=True, text=True)
+def test_the_example_runs_with_the_wheel(python, tmp_path):
+    run = subprocess.run([python, "-c", example()], capture_output=True, text=True, cwd=tmp_path)
     assert run.stdout.startswith("improved"), run.stderr

@@ -1,21 +1,45 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The README's Python examples do what they say."""
+"""The README's Python examples do what they say; those for Blender are tests/blender's."""
 
 import re
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 README = Path(__file__).resolve().parents[2] / "README.md"
+PNG = b"\x89PNG\r\n\x1a\n"
 
 
 def examples():
-    return re.findall(r"```python\n(.*?)```", README.read_text(encoding="utf-8"), re.DOTALL)
+    code = re.findall(r"```python\n(.*?)```", README.read_text(encoding="utf-8"), re.DOTALL)
+    return [example for example in code if "import bpy" not in example]
 
 
-def test_the_example_for_the_module_finds_the_waist():
-    (code,) = (code for code in examples() if "import mrcontour" in code)
+@pytest.fixture
+def run(tmp_path, monkeypatch):
+    """The names that the examples leave, one after the other, in a folder of their own and without a screen."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("MPLBACKEND", "agg")
     names = {}
-    exec(compile(code, "README.md", "exec"), names)  # noqa: S102
-    assert names["result"].status == "improved"
-    assert np.allclose(names["result"].positions[:, 2], 0.2)
+    for code in examples():
+        exec(compile(code, "README.md", "exec"), names)  # noqa: S102
+    return names
+
+
+def test_there_are_examples():
+    first, second = examples()
+    assert "import mrcontour" in first
+    assert "optimize_all" in second
+
+
+def test_the_example_for_the_module_finds_the_waist_and_plots_it(run, tmp_path):
+    assert run["result"].status == "improved"
+    assert np.allclose(run["result"].positions[:, 2], 0.2)
+    assert (tmp_path / "waist.png").read_bytes().startswith(PNG)
+
+
+def test_the_example_for_several_contours_says_what_comes_out(run):
+    said = re.search(r"# (\S+) (\(.*\))\n", examples()[1])
+    assert np.isclose(run["near"].positions[0, 2], float(said[1]))
+    assert str(run["far"].held_back_by) == said[2]

@@ -10,6 +10,7 @@
 
 namespace mrc {
 
+/// Where a vertex lies as one walks along the contour.
 enum class Side : signed char { right = -1, contour = 0, left = 1, outside = 2 };
 
 /// The faces searched, and the boundary curves of every dilation round on both sides (4.2.1).

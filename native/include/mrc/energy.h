@@ -128,6 +128,7 @@ class Energy {
     void finish(Frame& frame, double kappa, const SurfacePoint& point) const;
 };
 
+/// What a contour costs (eq. 3.3). Lengths are in the mesh's unit, ratios in one over it.
 struct Measure {
     double ratio = 0.0;      ///< numerator over length
     double numerator = 0.0;  ///< sum of f over the contour's arcs

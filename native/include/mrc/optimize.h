@@ -18,6 +18,7 @@
 
 namespace mrc {
 
+/// `constrained`: the given contour breaks a requirement, and the best that keeps all is returned, whatever its objective.
 enum class Status { improved, unchanged, constrained, cancelled };
 
 /// Why the given contour is returned.
@@ -45,13 +46,14 @@ struct Statistics {
     std::map<std::string, double> seconds;  ///< a stage, summed over the iterations
 };
 
+/// What a search found. Points, ratios and scales are in the mesh's unit of length.
 struct Result {
     Contour contour;
     Status status = Status::unchanged;
     Reason reason_code = Reason::none;
-    std::string reason;  ///< the same in words
-    double ratio = 0.0, initial_ratio = 0.0;
-    double objective = 0.0, initial_objective = 0.0;
+    std::string reason;                               ///< the same in words
+    double ratio = 0.0, initial_ratio = 0.0;          ///< of the contour returned and of the given one, 1 / unit of length
+    double objective = 0.0, initial_objective = 0.0;  ///< what is minimised: see `Objective`
     double salience = 0.0;          ///< minus the ratio over K of the best found, even where the given contour is returned
     double lower_bound = 0.0;       ///< no contour of the last iteration's graph, nor the given one, has a lower objective
     double gap = 0.0;               ///< objective of the best found minus lower_bound, never negative

@@ -6,14 +6,19 @@
 
 namespace mrc {
 
+/// How far along the contour a point lies (4.2.3); see `make_flow`.
 enum class FlowKind { gates, arc_length, harmonic };
+/// What contours follow: concave creases, or crests (3.4, footnote).
 enum class Feature { valley, ridge };
 enum class RegionSide { left, right };
+/// What is held at the ends of an open curve (4.6): the first and the last edge, their end vertices, or these but where they lie on
+/// the mesh border, along which they slide.
 enum class Ends { edges, vertices, border };
+/// What length_bias counts, and what the ratio divides by: lengths, or numbers of edges (appendix A).
 enum class LengthMeasure { arc, edges };
 enum class Denominator { length, arcs };
 
-/// All settings of the method; each stage reads its own. Sections are those of Clements 2006.
+/// All settings of the method; each stage reads its own. Sections are those of Clements 2006. h, K and L0 are those of `Scales`.
 struct Options {
     // band, 4.2.1
     /// Rings of faces to each side, at least 1; none: until topology stops the band, and what is refined then works in a band of the
@@ -33,9 +38,9 @@ struct Options {
     double direction_exponent = 1.0;  ///< b: sign(c) |c|^b in the place of a cosine c
     Feature feature = Feature::valley;
     double max_turn = std::numbers::pi / 2;  ///< radians in the tangent plane; arcs that turn more are pruned
-    double anchor = 0.0;                     ///< holds the contour near the given one: a far feature must be worth the way
-    std::optional<double> feature_clamp;     ///< quantile in (0, 1) of the negative kappa_min at which their size is cut off
-    double crease = 0.0;                     ///< pull of crisp creases, seen at their own edges
+    double anchor = 0.0;  ///< in K, 0 or more: holds the contour near the given one: a far feature must be worth the way
+    std::optional<double> feature_clamp;  ///< quantile in (0, 1) of the negative kappa_min at which their size is cut off
+    double crease = 0.0;                  ///< in K, 0 or more: pull of crisp creases, seen at their own edges
     // region term, 6.1.2
     double region_weight = 0.0;                 ///< of the change of the enclosed density, in K / L0
     RegionSide region_side = RegionSide::left;  ///< which side of the given direction counts as enclosed
@@ -44,7 +49,7 @@ struct Options {
     double length_floor = 0.0;  ///< below this share of L0 nothing is gained by shrinking
     LengthMeasure length_measure = LengthMeasure::arc;
     Denominator denominator = Denominator::length;
-    Ends ends = Ends::edges;  ///< open curves, 4.6: what is held, the first and last edge, their end vertices, or only the border
+    Ends ends = Ends::edges;
     // refinement, 3.2, and iteration, 5.3 and 5.6
     int refinement = 0;          ///< k, the Steiner points put on each edge; 0: contours keep to mesh edges
     int regular_iterations = 0;  ///< iterations along mesh edges first

@@ -13,7 +13,7 @@ namespace mrc {
 /// A soft constraint (4.5): a place that contours are drawn to, or from where strength is negative.
 struct Attractor {
     int vertex = -1;
-    double radius = 0.0;          ///< along the surface, above 0; nothing is felt beyond
+    double radius = 0.0;          ///< along the surface in the mesh's unit, above 0; nothing is felt beyond
     double strength = 1.0;        ///< of the pull, in units of K
     std::optional<double> sigma;  ///< of its Gaussian; none: half the radius
 };

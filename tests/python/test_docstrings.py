@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every public name says what it is: the module's, with units, types and defaults, and those of the add-on's api."""
+
+import ast
+import inspect
+import re
+from pathlib import Path
+
+import mrcontour as mrc
+import numpy as np
+import pytest
+
+API = Path(__file__).resolve().parents[2] / "addon" / "api.py"
+FUNCTIONS = [name for name in vars(mrc) if inspect.isroutine(getattr(mrc, name))]
+CLASSES = [name for name in vars(mrc) if inspect.isclass(getattr(mrc, name))]
+
+
+def words(item):
+    """A docstring without the line with the signature that pybind11 puts before it."""
+    lines = (item.__doc__ or "").splitlines()
+    return "\n".join(line for line in lines if not re.match(r"\w*\(.*\) -> ", line)).strip()
+
+
+def arguments(name):
+    signature = getattr(mrc, name).__doc__.splitlines()[0]
+    return set(re.findall(r"[(,] ?(\w+):", signature))
+
+
+def test_there_are_names_to_look_at():
+    assert {"optimize", "band"} <= set(FUNCTIONS)
+    assert {"Surface", "Options", "Result", "Infeasible"} <= set(CLASSES)
+    assert "required_edges" in arguments("optimize")
+
+
+@pytest.mark.parametrize("name", FUNCTIONS + CLASSES)
+def test_every_name_of_the_module_is_explained(name):
+    assert len(words(getattr(mrc, name)).split()) > 3
+
+
+@pytest.mark.parametrize("name", CLASSES)
+def test_every_attribute_is_explained(name):
+    attributes = {key: value for key, value in vars(getattr(mrc, name)).items() if not key.startswith("_")}
+    assert not [key for key, value in attributes.items() if not words(value)]
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_every_argument_is_explained_here_or_where_the_words_point(name):
+    said = words(getattr(mrc, name))
+    if name != "optimize" and "those of optimize" in said:
+        said += words(mrc.optimize)
+    assert not [argument for argument in arguments(name) if not re.search(rf"\b{argument}\b", said)]
+
+
+def test_options_say_their_defaults():
+    defaults = mrc.Options()
+    for key, value in vars(mrc.Options).items():
+        if not key.startswith("_"):
+            assert words(value).endswith(f"Default: {getattr(defaults, key)!r}.")
+            assert f"{key} = {getattr(defaults, key)!r}: " in mrc.Options.__doc__
+
+
+def test_arrays_say_their_types():
+    surface = mrc.Surface(np.eye(3), None, np.array([[0, 1, 2]]))
+    curvature = mrc.curvature(surface)
+    for key in ("kappa_min", "kappa_max", "direction_min", "direction_max"):
+        array, said = getattr(curvature, key), words(getattr(mrc.Curvature, key))
+        assert str(array.dtype) in said
+        assert ("(V, 3)" if array.ndim == 2 else "(V,)") in said
+    for key in ("vertices", "edge_vertices", "edge_parameters", "positions", "segment_faces"):
+        assert re.match(r"\(N(, \d)?,?\) (int32|float64)", words(getattr(mrc.Result, key)))
+
+
+def test_every_function_of_the_api_is_explained():
+    functions = [node for node in ast.parse(API.read_text()).body if isinstance(node, ast.FunctionDef)]
+    public = {node.name: ast.get_docstring(node) for node in functions if not node.name.startswith("_")}
+    assert {"optimize_contour", "optimize_seams", "optimize_segmentation"} <= public.keys()
+    assert {name for name, said in public.items() if not said} <= {"unregister"}
