@@ -71,7 +71,7 @@ def test_the_module_is_found():
 
 def test_a_missing_module_is_explained(monkeypatch):
     monkeypatch.setitem(sys.modules, "mrcontour", None)
-    assert "source only" in native.problem()
+    assert "its source, without the compiled library" in native.problem()
 
 
 def test_a_module_for_another_python_is_explained(monkeypatch, tmp_path):
