@@ -43,3 +43,16 @@ def test_the_example_for_several_contours_says_what_comes_out(run):
     said = re.search(r"# (\S+) (\(.*\))\n", examples()[1])
     assert np.isclose(run["near"].positions[0, 2], float(said[1]))
     assert str(run["far"].held_back_by) == said[2]
+
+
+@pytest.mark.parametrize("page", [README, README.parent / "blend_samples" / "README.md"], ids=["readme", "gallery"])
+def test_what_a_page_links_to_is_there(page):
+    linked = re.findall(r"\]\(([^)#]+)\)", page.read_text(encoding="utf-8"))
+    assert linked
+    assert not [link for link in linked if not (page.parent / link).exists()]
+
+
+def test_the_gallery_s_files_are_small():
+    files = sorted((README.parent / "blend_samples").glob("*.blend"))
+    assert "character.blend" in [file.name for file in files]
+    assert not [file.name for file in files if file.stat().st_size >= 2**20]
