@@ -234,6 +234,7 @@ void Optimization::keep_given() {
     result_.status = Status::unchanged;
     result_.ratio = result_.initial_ratio;
     result_.objective = result_.initial_objective;
+    result_.lower_bound = std::min(result_.lower_bound, result_.objective);
 }
 
 void Optimization::explain(const RatioResult& best) {

@@ -224,3 +224,37 @@ def test_curvature_where_vertices_lie_just_on_the_disk():
         for radius in (length / h * (1 - 1e-9), length / h, length / h * (1 + 1e-9)):
             curvature = mrc.curvature(surface, mrc.Options(curvature_radius=radius, curvature_smoothing=0.0))
             assert np.abs(curvature.kappa_max - 1).max() < 0.3
+
+
+def test_the_bound_is_not_above_a_given_contour_that_is_returned_at_the_end():
+    """Both iterations lower the objective, and the given contour, measured with Steiner points, is still better."""
+    positions = 2.0 * np.array([(0, 0, 1), (1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0), (0, 0, -1)])
+    triangles = [(1, 0, 4), (4, 0, 3), (3, 0, 2), (2, 0, 1), (1, 5, 2), (2, 5, 3), (3, 5, 4), (4, 5, 1)]
+    options = mrc.Options(
+        width=None, refinement=1, flow="arc_length", length_bias=0.8, length_measure="edges", denominator="arcs"
+    )
+    result = mrc.optimize(mrc.Surface(positions, None, triangles), [3, 4, 5], options=options)
+    assert result.reason_code == "none_refined"
+    assert result.lower_bound <= result.objective == result.initial_objective
+
+
+def test_an_answer_without_truth_is_an_error():
+    """An array of several is neither yes nor no."""
+    with pytest.raises(ValueError, match="truth"):
+        mrc.optimize(surface_of(tube()), ring(3), progress=lambda share: np.zeros(2))
+    with pytest.raises(ValueError, match="truth"):
+        mrc.optimize_all(surface_of(tube()), [ring(3)], closed=[np.zeros(2)])
+
+
+@pytest.mark.parametrize("name", ["anchor", "crease", "region_weight", "min_salience", "kappa0_factor", "length_bias"])
+def test_weights_whose_products_are_no_numbers_are_refused(name):
+    with pytest.raises(ValueError, match=f"{name}.*1e\\+50"):
+        mrc.Options(**{name: 1e300})
+
+
+def test_progress_does_not_fall_for_any_number_of_iterations():
+    shares = []
+    options = mrc.Options(iterations=2**31 - 1, regular_iterations=2**31 - 1)
+    mrc.optimize(surface_of(tube()), ring(3), options=options, progress=shares.append)
+    assert shares == sorted(shares)
+    assert shares[0] >= 0
