@@ -29,8 +29,11 @@ void Options::check() const {
     require(finite_above(curvature_radius, 0.0), "curvature_radius", curvature_radius, "above 0");
     require(usable(curvature_smoothing) && curvature_smoothing >= 0.0, "curvature_smoothing", curvature_smoothing, "0 or more");
     require(finite_above(kappa0_factor, 0.0), "kappa0_factor", kappa0_factor, "above 0");
-    require(finite_above(feature_exponent, 0.0), "feature_exponent", feature_exponent, "above 0");
-    require(finite_above(direction_exponent, 0.0), "direction_exponent", direction_exponent, "above 0");
+    const auto exponent = [](double value, const char* name) {
+        require(value > 0.0 && value <= 16.0, name, value, "above 0 and at most 16");  // further powers are no numbers any more
+    };
+    exponent(feature_exponent, "feature_exponent");
+    exponent(direction_exponent, "direction_exponent");
     require(max_turn > 0.0 && max_turn <= std::numbers::pi + 1e-9, "max_turn", max_turn, "above 0 and at most pi");
     require(!band_distance || finite_above(*band_distance, 0.0), "band_distance", band_distance.value_or(0.0), "above 0, or none");
     require(usable(region_weight), "region_weight", region_weight, "a number");

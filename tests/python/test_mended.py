@@ -6,6 +6,7 @@ import mrcontour as mrc
 import numpy as np
 import pytest
 from conftest import surface_of
+from random_cases import torus
 
 
 def tube(rows=6, columns=8, **more):
@@ -69,9 +70,8 @@ def test_one_point_written_from_both_ends_of_its_edge_is_one_point():
 
 def test_numbers_beyond_range_are_refused():
     mesh = tube()
-    surface = mrc.Surface(np.asarray(mesh.positions) * 1e200, *face_arrays(mesh))
     with pytest.raises(ValueError, match="scale the mesh"):
-        mrc.optimize(surface, ring(2))
+        mrc.Surface(np.asarray(mesh.positions) * 1e200, *face_arrays(mesh))
 
 
 def face_arrays(mesh):
@@ -227,13 +227,10 @@ def test_curvature_where_vertices_lie_just_on_the_disk():
 
 
 def test_the_bound_is_not_above_a_given_contour_that_is_returned_at_the_end():
-    """Both iterations lower the objective, and the given contour, measured with Steiner points, is still better."""
-    positions = 2.0 * np.array([(0, 0, 1), (1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0), (0, 0, -1)])
-    triangles = [(1, 0, 4), (4, 0, 3), (3, 0, 2), (2, 0, 1), (1, 5, 2), (2, 5, 3), (3, 5, 4), (4, 5, 1)]
-    options = mrc.Options(
-        width=None, refinement=1, flow="arc_length", length_bias=0.8, length_measure="edges", denominator="arcs"
-    )
-    result = mrc.optimize(mrc.Surface(positions, None, triangles), [3, 4, 5], options=options)
+    """What was won along mesh edges is lost where it is measured with Steiner points."""
+    mesh, contour = torus(np.random.default_rng(353))
+    options = mrc.Options(width=3, refinement=2, regular_iterations=1, iterations=0)
+    result = mrc.optimize(surface_of(mesh), contour, options=options)
     assert result.reason_code == "none_refined"
     assert result.lower_bound <= result.objective == result.initial_objective
 
@@ -250,6 +247,13 @@ def test_an_answer_without_truth_is_an_error():
 def test_weights_whose_products_are_no_numbers_are_refused(name):
     with pytest.raises(ValueError, match=f"{name}.*1e\\+50"):
         mrc.Options(**{name: 1e300})
+
+
+@pytest.mark.parametrize("name", ["feature_exponent", "direction_exponent"])
+def test_exponents_whose_powers_are_no_numbers_are_refused(name):
+    mrc.Options(**{name: 16})
+    with pytest.raises(ValueError, match=f"{name}.*16"):
+        mrc.Options(**{name: 17})
 
 
 def test_progress_does_not_fall_for_any_number_of_iterations():
