@@ -134,7 +134,7 @@ std::vector<mrc::Task> to_tasks(const Iterable& contours, const py::object& clos
     std::vector<mrc::Task> tasks;
     for (std::size_t i = 0; i < count; ++i) {
         const mrc::Wishes own = to_wishes(vertices_each[i], edges_each[i], py::tuple(), py::tuple(), {Doubles(0), {}});
-        mrc::Task task{listed_contour(list[i], PyObject_IsTrue(closed_each[i].ptr()) != 0), shared, std::nullopt};
+        mrc::Task task{listed_contour(list[i], py::bool_(closed_each[i])), shared, std::nullopt};
         task.wishes.required_vertices = own.required_vertices;
         task.wishes.required_edges = own.required_edges;
         task.scales = to_scales(scales_each[i]);
@@ -148,7 +148,7 @@ mrc::Progress to_progress(const py::object& progress) {
     return [progress = progress.ptr()](double share) {
         const py::gil_scoped_acquire acquire;
         const py::object answer = py::reinterpret_borrow<py::function>(progress)(share);
-        return answer.is_none() || PyObject_IsTrue(answer.ptr()) != 0;
+        return answer.is_none() || py::bool_(answer);  // an exception where it has no truth, as arrays
     };
 }
 

@@ -104,7 +104,8 @@ class GraphBuilder {
         }
         std::set<int> walls;  // by the surface's edges
         for (int e = 0; e < static_cast<int>(territory_.wall.size()); ++e) {
-            if (territory_.wall[e]) walls.insert(surface_.edge(patch_.edge_halfedge(e)));
+            // Both ends of an edge between two bands may be points that the given contours share: neither runs along it.
+            if (territory_.wall[e] || territory_.closed_edge[e]) walls.insert(surface_.edge(patch_.edge_halfedge(e)));
         }
         for (Segment& s : ambient_.segments) {
             const bool crossed = s.halfedge >= 0 && walls.contains(surface_.edge(s.halfedge));

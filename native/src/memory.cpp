@@ -35,11 +35,11 @@ double free_bytes() {
 
 // A triangle has 3 k^2 + 3 k chords inside and k + 1 on each side, which two triangles share (3.2); each is a node once. Arcs a node
 // were counted on real bands: about 2 for k = 0 and one more for each further k.
-void check_graph_size(double triangles, int steiner) {
+void check_graph_size(double triangles, int steiner, double (*free_bytes)()) {
     const double k = steiner;
     const double nodes = triangles * (3.0 * k * k + 4.5 * k + 1.5), arcs = nodes * (2.0 + 1.25 * k);
     const double bytes = 200.0 * nodes + 24.0 * arcs;
-    constexpr double always_there = 1e8;  // asking the system takes longer than a small search
+    constexpr double always_there = 1e8;
     if (bytes < always_there || (arcs < 2147483648.0 && bytes < free_bytes())) return;
     std::ostringstream message;
     message.precision(3);
@@ -47,5 +47,7 @@ void check_graph_size(double triangles, int steiner) {
             << " GB: lower refinement (now " << steiner << ") or width";
     throw TooLarge(message.str());
 }
+
+void check_graph_size(double triangles, int steiner) { check_graph_size(triangles, steiner, free_bytes); }
 
 }  // namespace mrc

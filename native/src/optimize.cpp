@@ -85,7 +85,7 @@ class Company {
     int count() const { return static_cast<int>(contours_.size()); }
 
     /// An iteration has three steps: patches, bands, searches.
-    void report(int step) { watch_.advance((3.0 * iteration_ + step) / (3.0 * (regular_iterations_ + options_.iterations))); }
+    void report(int step) { watch_.advance((3.0 * iteration_ + step) / (3.0 * regular_iterations_ + 3.0 * options_.iterations)); }
 
     template <class Step>
     void for_each(Step&& step) {

@@ -8,6 +8,8 @@
 namespace mrc {
 namespace {
 
+bool usable(double value) { return std::abs(value) <= 1e50; }  // as positions
+
 void check_vertex(const Surface& surface, int vertex, const char* what) {
     if (vertex >= 0 && vertex < surface.vertex_count()) return;
     throw InvalidInput(std::string(what) + " " + std::to_string(vertex) + " is out of range: the surface has " +
@@ -36,16 +38,17 @@ void Wishes::check(const Surface& surface) const {
                            std::to_string(surface.face_count()) + " faces");
     }
     for (std::size_t f = 0; f < region_density.size(); ++f) {
-        if (!std::isfinite(region_density[f]))
-            throw InvalidInput("the region density of face " + std::to_string(f) + " is not finite");
+        if (!usable(region_density[f]))
+            throw InvalidInput("the region density of face " + std::to_string(f) + " is not finite, or beyond 1e50");
     }
     for (const Attractor& a : attractors) {
         check_vertex(surface, a.vertex, "attractor vertex");
         const std::string name = "the attractor at vertex " + std::to_string(a.vertex);
-        if (!(std::isfinite(a.radius) && a.radius > 0.0))
-            throw InvalidInput(name + " has radius " + std::to_string(a.radius) + ": it must be above 0");
-        if (!std::isfinite(a.strength)) throw InvalidInput(name + " has a strength that is not finite");
-        if (a.sigma && !(std::isfinite(*a.sigma) && *a.sigma > 0.0)) throw InvalidInput(name + " has a sigma that is not above 0");
+        if (!(usable(a.radius) && a.radius > 0.0))
+            throw InvalidInput(name + " has radius " + std::to_string(a.radius) + ": it must be above 0, and no larger than 1e50");
+        if (!usable(a.strength)) throw InvalidInput(name + " has a strength that is not finite, or beyond 1e50");
+        if (a.sigma && !(usable(*a.sigma) && *a.sigma > 0.0))
+            throw InvalidInput(name + " has a sigma that is not above 0, or beyond 1e50");
     }
 }
 

@@ -1,30 +1,44 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whether a contour across faces is simple, in exact arithmetic."""
 
+from collections import Counter
 from itertools import combinations, pairwise
 
 from contour_energy import UNITS
 
 
+def chords_by_triangle(mesh, points, closed):
+    """The chords that lie in each triangle, as sorted corners, and those that lie in none, under None."""
+    by_corner = {}
+    for triangle in mesh.triangles.tolist():
+        for corner in triangle:
+            by_corner.setdefault(corner, set()).add(tuple(sorted(triangle)))
+    within = {}
+    for chord in pairwise([*points, points[0]] if closed else points):
+        corners = {v for p in chord for v in p[:2]}
+        holding = [triangle for triangle in by_corner.get(chord[0][0], ()) if corners <= set(triangle)]
+        for triangle in holding or [None]:
+            within.setdefault(triangle, []).append(chord)
+    return within
+
+
 def crossings(mesh, points, closed):
     """Pairs of chords that meet elsewhere than at a common end, and points that are visited twice."""
-    found = [p for p in set(points) if points.count(p) > 1]
-    chords = list(pairwise([*points, points[0]] if closed else points))
-    triangles = [tuple(t) for t in mesh.triangles.tolist()]
-    for triangle in triangles:
-        corners = set(triangle)
-        within = [chord for chord in chords if {v for p in chord for v in p[:2]} <= corners]
-        for one, two in combinations(within, 2):
-            if segments_meet(*(flat(p, triangle) for p in (*one, *two)), shared=bool(set(one) & set(two))):
+    found = [point for point, count in Counter(points).items() if count > 1]
+    for triangle, chords in chords_by_triangle(mesh, points, closed).items():
+        for one, two in combinations(chords, 2):
+            if triangle and chords_meet(one, two, triangle):
                 found.append((one, two))
     return found
 
 
 def on_surface(mesh, points, closed):
     """Whether every chord lies in a triangle."""
-    triangles = [set(t) for t in mesh.triangles.tolist()]
-    chords = pairwise([*points, points[0]] if closed else points)
-    return all(any({v for p in chord for v in p[:2]} <= triangle for triangle in triangles) for chord in chords)
+    return None not in chords_by_triangle(mesh, points, closed)
+
+
+def chords_meet(one, two, triangle):
+    return segments_meet(*(flat(p, triangle) for p in (*one, *two)), shared=bool(set(one) & set(two)))
 
 
 def flat(point, triangle):
@@ -57,25 +71,7 @@ def segments_meet(a, b, c, d, shared):
 def meetings(mesh, one, two, closed=(True, True)):
     """Points that two contours share, and pairs of their chords that cross or touch elsewhere."""
     found = sorted(set(one) & set(two))
-    triangles = [tuple(t) for t in mesh.triangles.tolist()]
-    by_corner = {}
-    for triangle in triangles:
-        for corner in triangle:
-            by_corner.setdefault(corner, []).append(triangle)
-
-    def chords_by_triangle(points, is_closed):
-        within = {}
-        for chord in pairwise([*points, points[0]] if is_closed else points):
-            corners = {v for p in chord for v in p[:2]}
-            for triangle in by_corner[chord[0][0]]:
-                if corners <= set(triangle):
-                    within.setdefault(triangle, []).append(chord)
-        return within
-
-    first, second = (chords_by_triangle(*pair) for pair in zip((one, two), closed, strict=True))
-    for triangle in first.keys() & second.keys():
-        for p in first[triangle]:
-            for q in second[triangle]:
-                if segments_meet(*(flat(end, triangle) for end in (*p, *q)), shared=bool(set(p) & set(q))):
-                    found.append((p, q))
+    first, second = (chords_by_triangle(mesh, *pair) for pair in zip((one, two), closed, strict=True))
+    for triangle in (first.keys() & second.keys()) - {None}:
+        found += [(p, q) for p in first[triangle] for q in second[triangle] if chords_meet(p, q, triangle)]
     return found

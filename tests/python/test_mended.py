@@ -6,6 +6,7 @@ import mrcontour as mrc
 import numpy as np
 import pytest
 from conftest import surface_of
+from random_cases import torus
 
 
 def tube(rows=6, columns=8, **more):
@@ -224,3 +225,41 @@ def test_curvature_where_vertices_lie_just_on_the_disk():
         for radius in (length / h * (1 - 1e-9), length / h, length / h * (1 + 1e-9)):
             curvature = mrc.curvature(surface, mrc.Options(curvature_radius=radius, curvature_smoothing=0.0))
             assert np.abs(curvature.kappa_max - 1).max() < 0.3
+
+
+def test_the_bound_is_not_above_a_given_contour_that_is_returned_at_the_end():
+    """What was won along mesh edges is lost where it is measured with Steiner points."""
+    mesh, contour = torus(np.random.default_rng(353))
+    options = mrc.Options(width=3, refinement=2, regular_iterations=1, iterations=0)
+    result = mrc.optimize(surface_of(mesh), contour, options=options)
+    assert result.reason_code == "none_refined"
+    assert result.lower_bound <= result.objective == result.initial_objective
+
+
+def test_an_answer_without_truth_is_an_error():
+    """An array of several is neither yes nor no."""
+    with pytest.raises(ValueError, match="truth"):
+        mrc.optimize(surface_of(tube()), ring(3), progress=lambda share: np.zeros(2))
+    with pytest.raises(ValueError, match="truth"):
+        mrc.optimize_all(surface_of(tube()), [ring(3)], closed=[np.zeros(2)])
+
+
+@pytest.mark.parametrize("name", ["anchor", "crease", "region_weight", "min_salience", "kappa0_factor", "length_bias"])
+def test_weights_whose_products_are_no_numbers_are_refused(name):
+    with pytest.raises(ValueError, match=f"{name}.*1e\\+50"):
+        mrc.Options(**{name: 1e300})
+
+
+@pytest.mark.parametrize("name", ["feature_exponent", "direction_exponent"])
+def test_exponents_whose_powers_are_no_numbers_are_refused(name):
+    mrc.Options(**{name: 16})
+    with pytest.raises(ValueError, match=f"{name}.*16"):
+        mrc.Options(**{name: 17})
+
+
+def test_progress_does_not_fall_for_any_number_of_iterations():
+    shares = []
+    options = mrc.Options(iterations=2**31 - 1, regular_iterations=2**31 - 1)
+    mrc.optimize(surface_of(tube()), ring(3), options=options, progress=shares.append)
+    assert shares == sorted(shares)
+    assert shares[0] >= 0

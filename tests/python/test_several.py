@@ -406,3 +406,18 @@ def test_wrong_types():
             bad(**change)
     with pytest.raises(ValueError, match="threads"):
         mrc.Options(threads=-1)
+
+
+@pytest.mark.parametrize("seed", range(0, 64, 2))
+def test_an_edge_between_two_points_that_contours_share_is_neithers(seed):
+    """Where two given contours part and meet again, both might run straight from the one vertex to the other."""
+    rng = np.random.default_rng(seed)
+    mesh = meshes.tube(1 + 0.4 * rng.random(11), 8, step=0.5, rng=rng, split_share=1.0, noise=0.1)
+    given = [np.array(meshes.zigzag_contour(rng, 8, 4, 6, 0.9)) for _ in range(2)]
+    results = mrc.optimize_all(surface_of(mesh), given, options=mrc.Options(iterations=2, width=2))
+    one, two = (edges_of(result.vertices) for result in results)
+    assert one & two <= edges_of(given[0]) & edges_of(given[1])
+
+
+def edges_of(ring):
+    return {tuple(sorted(pair)) for pair in zip(ring.tolist(), np.roll(ring, -1).tolist(), strict=True)}

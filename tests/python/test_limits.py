@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What would need more memory than is free, or more arcs than can be counted, is refused before any of it is taken."""
+
+import re
+import resource
+from pathlib import Path
+
+import meshes
+import mrcontour as mrc
+import numpy as np
+import pytest
+from conftest import surface_of
+
+MOST_ARCS = 2**31
+RING = np.arange(16, 24, dtype=np.int32)
+
+
+@pytest.fixture(scope="module")
+def surface():
+    return surface_of(meshes.tube(1 + 0.1 * np.cos(np.arange(6)), 8, rng=np.random.default_rng(2), noise=0.02))
+
+
+def estimate(error):
+    """Nodes, arcs and bytes of a message, which says what to lower, too."""
+    found = re.search(
+        r"about (\S+) nodes and (\S+) arcs and need (\S+) GB: lower refinement \(now (\d+)\) or width", error
+    )
+    assert found, error
+    nodes, arcs, gigabytes = map(float, found.groups()[:3])
+    return nodes, arcs, 1e9 * gigabytes
+
+
+def refused(call):
+    """The estimate of what is refused, and that no memory to speak of was taken for it."""
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    with pytest.raises(mrc.TooLarge) as caught:
+        call()
+    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 200_000  # kilobytes
+    return estimate(str(caught.value)), str(caught.value)
+
+
+@pytest.mark.parametrize("k", [100_000, 2**31 - 1])
+@pytest.mark.parametrize("function", [mrc.optimize, mrc.measure, mrc.search_space])
+def test_too_many_arcs_for_the_contour_alone(surface, function, k):
+    (_, arcs, size), message = refused(lambda: function(surface, RING, options=mrc.Options(refinement=k)))
+    assert arcs > MOST_ARCS
+    assert size > 24 * MOST_ARCS
+    assert f"now {k}" in message
+
+
+def test_of_several_contours_the_one_too_large_is_named(surface):
+    rings = [RING, RING + 16]
+    _, message = refused(lambda: mrc.optimize_all(surface, rings, options=mrc.Options(refinement=100_000)))
+    assert message.startswith("contour 0: ")
+
+
+@pytest.mark.parametrize("iterations", [{"iterations": 1}, {"iterations": 0, "regular_iterations": 1}])
+def test_the_band_counts_where_it_is_searched(iterations):
+    """A refinement that is fine for a narrow band is refused for a wide one, in iterations that use it alone."""
+    torus, ring = surface_of(meshes.torus(60, 120)), 120 * np.arange(60, dtype=np.int32)
+    options = mrc.Options(refinement=40, width=100, flow="arc_length", **iterations)
+    if options.iterations:
+        (nodes, arcs, _), _ = refused(lambda: mrc.optimize(torus, ring, options=options))
+        assert nodes > 14_000 * 3 * 40**2
+        assert arcs > MOST_ARCS
+    else:
+        assert mrc.optimize(torus, ring, options=options).status in ("improved", "unchanged")
+
+
+def free_bytes():
+    """What Linux says that it can hand out."""
+    path = Path("/proc/meminfo")
+    if not path.exists():
+        pytest.skip("only Linux says here what is free")
+    return 1024 * int(re.search(r"MemAvailable: *(\d+)", path.read_text())[1])
+
+
+def test_the_limit_lies_at_the_free_memory_or_the_most_arcs(surface):
+    """By halving, on what only measures and builds no graph."""
+    fine, too_many, message = 1, 100_000, ""
+    while too_many - fine > 1 + fine // 100:
+        k = (fine + too_many) // 2
+        try:
+            mrc.measure(surface, RING, options=mrc.Options(refinement=k))
+            fine = k
+        except mrc.TooLarge as error:
+            too_many, message = k, str(error)
+    _, arcs, size = estimate(message)
+    assert size == pytest.approx(free_bytes(), rel=0.4) or arcs == pytest.approx(MOST_ARCS, rel=0.1)
