@@ -98,18 +98,16 @@ def write(context, parts, wish):
         custom_normals.restore(context)
 
 
-def select_vertices(context, vertices_of):
-    """Shows some vertices of each object: in vertex mode, they alone selected."""
-    context.tool_settings.mesh_select_mode = (True, False, False)
-    bpy.ops.mesh.select_all(action="DESELECT")
+def select_vertices(vertices_of):
+    """Shows some vertices of objects: in vertex mode, they alone selected there; other objects keep their selection."""
+    bpy.ops.mesh.select_mode(type="VERT")
     for obj, vertices in vertices_of.items():
         bm = bmesh.from_edit_mesh(obj.data)
-        bm.select_mode = {"VERT"}
         bm.verts.ensure_lookup_table()
-        for vertex in vertices:
-            if not bm.verts[vertex].hide:
-                bm.verts[vertex].select_set(True)
-        bm.select_flush_mode()
+        shown = [bm.verts[vertex] for vertex in vertices if not bm.verts[vertex].hide]
+        _select_each([bm.verts], False)
+        _select_each([shown], True)
+        _flush_selection(bm)
         bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)
 
 

@@ -105,11 +105,18 @@ def reason(result):
     return _REASONS[result.reason_code] + (f"; {beside} beside it kept the search back" if others else "")
 
 
-def unsearchable(error, pins_outside):
-    """Why nothing could be searched for with the pins there are."""
-    if pins_outside:
-        pins = "1 pinned vertex lies" if pins_outside == 1 else f"{pins_outside} pinned vertices lie"
-        return f"{pins} outside the band: widen it (wheel), or unpin (X)"
+def pins_outside(count):
+    """What to do about pins that no contour can reach; empty where there are none."""
+    if not count:
+        return ""
+    pins = "1 pinned vertex lies" if count == 1 else f"{count} pinned vertices lie"
+    return f"{pins} outside the band: widen it (wheel), or unpin (X)"
+
+
+def unsearchable(error, count):
+    """Why nothing could be searched for with the pins there are, so many of them outside the band."""
+    if count:
+        return pins_outside(count)
     if type(error).__name__ == "Infeasible":
         return "No contour in the band passes all pinned vertices: click one to unpin it, or widen the band (wheel)"
     return problem(error)
