@@ -44,6 +44,15 @@ def grooved_cylinder(name="Cylinder", depth=0.3, grooves=(GROOVE,)):
     return mesh_object(name, positions, faces=faces)
 
 
+def dumbbell(offset=0.0):
+    """A cylinder along x with two grooves, to both sides of its middle, which may be off x = 0."""
+    obj = grooved_cylinder(grooves=(5, 15))
+    for vertex in obj.data.vertices:
+        x, y, _ = vertex.co
+        vertex.co = (vertex.index // SEGMENTS - 10) * 0.2 + offset, x, y
+    return obj
+
+
 def torus(major=24, minor=12):
     """A closed torus of quads."""
     angles = [(2 * np.pi * i / major, 2 * np.pi * j / minor) for i in range(major) for j in range(minor)]

@@ -10,6 +10,7 @@ from made_meshes import (
     GROOVE,
     RINGS,
     SEGMENTS,
+    dumbbell,
     edge_set,
     edit,
     everything,
@@ -458,6 +459,18 @@ def custom_normal(position):
     return (normal / np.linalg.norm(normal)).tolist()
 
 
+def test_what_cannot_be_selected_stays_in_edit_mode():
+    obj, other = with_custom_normals(tilted_cylinder), grooved_cylinder("Other")
+    edit(obj, other)
+    other.hide_select = True
+    was_selected = other.select_get()
+    select(obj, pairs(START))
+    assert run(output="CUT", **REFINED) == {"FINISHED"}
+    assert set(bpy.context.objects_in_mode) == {obj, other}
+    assert other.hide_select
+    assert other.select_get() == was_selected
+
+
 @pytest.mark.parametrize("output", ["CUT", "SEAM", "RIP", "SEPARATE"])
 @pytest.mark.parametrize("settings", [{}, REFINED])
 def test_custom_normals_stay(output, settings):
@@ -550,15 +563,6 @@ def test_an_even_scale_is_not_warned_of(last):
     bpy.context.view_layer.update()
     run()
     assert "Scale" not in last.message
-
-
-def dumbbell():
-    """Two grooves, to both sides of x = 0."""
-    obj = grooved_cylinder(grooves=(5, 15))
-    for vertex in obj.data.vertices:
-        x, y, _ = vertex.co
-        vertex.co = (vertex.index // SEGMENTS - 10) * 0.2, x, y
-    return obj
 
 
 @pytest.mark.parametrize("settings", [{}, REFINED])
