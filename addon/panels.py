@@ -10,6 +10,8 @@ from . import native, report, show_directions
 from .parameters import CONSTRAINTS, MAIN, MORE, NETWORK
 
 OPERATOR = "mesh.optimize_contour"
+NETWORK_OPERATORS = ("mesh.optimize_seams", "mesh.optimize_segmentation")
+_SHARED = (*NETWORK, "merge")  # what networks take from the settings
 _SHOWN = 8  # contours with their numbers in the panel
 
 
@@ -44,11 +46,12 @@ def show_result(context, message, outcomes):
             _fill(last.contours.add(), outcome)
 
 
-def remember(context, values):
-    """Lets the operator's next run from the panel or a menu start from these values."""
-    settings = _remembered(context)
+def remember(context, values, operator=OPERATOR):
+    """Lets the operator's next run from the panel or a menu start from these values, of those that it has."""
+    settings = context.window_manager.operator_properties_last(operator)
     for name, value in values.items():
-        setattr(settings, name, value)
+        if hasattr(settings, name):
+            setattr(settings, name, value)
 
 
 def draw_redo(layout, operator, obj):
@@ -216,8 +219,7 @@ class VIEW3D_PT_minimum_ratio_contours_networks(bpy.types.Panel):
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        seams = context.window_manager.operator_properties_last("mesh.optimize_seams")
-        regions = context.window_manager.operator_properties_last("mesh.optimize_segmentation")
+        seams, regions = map(context.window_manager.operator_properties_last, NETWORK_OPERATORS)
         _draw_network_operator(layout, context, "mesh.optimize_seams", icon="UV_EDGESEL")
         layout.prop(seams, "selected_only")
         _draw_network_operator(layout, context, "mesh.optimize_segmentation", icon="FACE_MAPS")
@@ -245,7 +247,7 @@ class VIEW3D_PT_minimum_ratio_contours_curvature(bpy.types.Panel):
 def _draw_network_operator(layout, context, name, icon):
     """A button whose operator takes the settings of the panel above it."""
     button, settings = layout.operator(name, icon=icon), _remembered(context)
-    for setting in NETWORK:
+    for setting in _SHARED:
         setattr(button, setting, getattr(settings, setting))
 
 
