@@ -8,7 +8,7 @@ import bmesh
 import bpy
 import numpy as np
 
-from . import custom_normals, cutting, mesh_access, networks
+from . import columns, custom_normals, cutting, mesh_access, networks
 
 _ORIGIN = "minimum_ratio_contours_origin"
 
@@ -47,7 +47,7 @@ def cut(obj, plan, merge=0.0):
 def restore_normals(context, obj):
     """Sets the custom normals that were noted, once the plan is written."""
     if custom_normals.are_noted(obj.data):
-        custom_normals.restore(context) if obj.data.is_editmode else custom_normals.set_noted(obj.data)
+        custom_normals.restore(context) if columns.is_edited(obj) else custom_normals.set_noted(obj.data)
 
 
 def _with_lost(plan, lost):
@@ -92,7 +92,7 @@ def _topology(obj):
 @contextmanager
 def _copy(obj):
     """A bmesh like the mesh, in the same order."""
-    bm = bmesh.from_edit_mesh(obj.data).copy() if obj.data.is_editmode else _loaded(obj.data)
+    bm = bmesh.from_edit_mesh(obj.data).copy() if columns.is_edited(obj) else _loaded(obj.data)
     try:
         yield bm
     finally:
@@ -103,7 +103,7 @@ def _copy(obj):
 def _opened(obj):
     """The mesh itself as a bmesh, whose changes are written in the end."""
     mesh = obj.data
-    if mesh.is_editmode:
+    if columns.is_edited(obj):
         bm = bmesh.from_edit_mesh(mesh)
         yield bm
         bm.select_flush_mode()

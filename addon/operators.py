@@ -112,7 +112,7 @@ class ContourOutput(CutSettings):
         if not outcomes:
             return self.give_up(context, "WARNING", report.NOTHING_SELECTED)
         warnings = [warning for part in parts for warning in part.warnings]
-        message = report.summary(outcomes, warnings)
+        message = report.summary(outcomes, warnings + report.turn_notes(outcomes, self.settings()))
         level = "WARNING" if warnings or any(outcome.problem for outcome in outcomes) else "INFO"
         outside = {part.obj: part.outside for part in parts if len(part.outside)}
         possible = outputs.is_possible(parts, wish)
