@@ -145,11 +145,22 @@ def _draw_marks(layout, settings, name):
     column.row(align=True).prop(settings, name, expand=True)
 
 
-class VIEW3D_PT_minimum_ratio_contours(bpy.types.Panel):
-    bl_label = "Contours"
+class InSidebar:
+    """Where the panels are."""
+
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = "Contours"
+
+
+class InMainPanel(InSidebar):
+    """Where the panels below the main one are."""
+
+    bl_parent_id = "VIEW3D_PT_minimum_ratio_contours"
+
+
+class VIEW3D_PT_minimum_ratio_contours(InSidebar, bpy.types.Panel):
+    bl_label = "Contours"
     bl_context = "mesh_edit"
 
     def draw(self, context):
@@ -169,12 +180,8 @@ class VIEW3D_PT_minimum_ratio_contours(bpy.types.Panel):
         bpy.types.VIEW3D_PT_minimum_ratio_contours_presets.draw_panel_header(self.layout)
 
 
-class VIEW3D_PT_minimum_ratio_contours_result(bpy.types.Panel):
+class VIEW3D_PT_minimum_ratio_contours_result(InMainPanel, bpy.types.Panel):
     bl_label = "Last Result"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Contours"
-    bl_parent_id = "VIEW3D_PT_minimum_ratio_contours"
 
     @classmethod
     def poll(cls, context):
@@ -184,36 +191,24 @@ class VIEW3D_PT_minimum_ratio_contours_result(bpy.types.Panel):
         _draw_result(self.layout, context, context.window_manager.minimum_ratio_contours)
 
 
-class VIEW3D_PT_minimum_ratio_contours_more(bpy.types.Panel):
+class VIEW3D_PT_minimum_ratio_contours_more(InMainPanel, bpy.types.Panel):
     bl_label = "More Settings"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Contours"
-    bl_parent_id = "VIEW3D_PT_minimum_ratio_contours"
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
         draw_more_settings(self.layout.column(), _remembered(context))
 
 
-class VIEW3D_PT_minimum_ratio_contours_constraints(bpy.types.Panel):
+class VIEW3D_PT_minimum_ratio_contours_constraints(InMainPanel, bpy.types.Panel):
     bl_label = "Constraints"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Contours"
-    bl_parent_id = "VIEW3D_PT_minimum_ratio_contours"
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
         draw_constraints(self.layout.column(), _remembered(context), context.object)
 
 
-class VIEW3D_PT_minimum_ratio_contours_networks(bpy.types.Panel):
+class VIEW3D_PT_minimum_ratio_contours_networks(InMainPanel, bpy.types.Panel):
     bl_label = "Whole Mesh"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Contours"
-    bl_parent_id = "VIEW3D_PT_minimum_ratio_contours"
 
     def draw(self, context):
         layout = self.layout
@@ -228,12 +223,8 @@ class VIEW3D_PT_minimum_ratio_contours_networks(bpy.types.Panel):
             layout.prop_search(regions, "attribute", context.object.data, "attributes")
 
 
-class VIEW3D_PT_minimum_ratio_contours_curvature(bpy.types.Panel):
+class VIEW3D_PT_minimum_ratio_contours_curvature(InMainPanel, bpy.types.Panel):
     bl_label = "Curvature"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Contours"
-    bl_parent_id = "VIEW3D_PT_minimum_ratio_contours"
 
     def draw(self, context):
         column = self.layout.column(align=True)
