@@ -83,7 +83,7 @@ def read_selection(obj, face_mode):
 
 @dataclass(frozen=True)
 class EdgeArrays:
-    """What networks.make_topology is made from, in its order."""
+    """What topology.make_topology is made from, in its order."""
 
     edges: np.ndarray
     face_offsets: np.ndarray

@@ -9,6 +9,8 @@ import bpy
 import numpy as np
 
 from . import columns, custom_normals, cutting, mesh_access, networks
+from .settlement import Settlement
+from .topology import make_topology
 
 _ORIGIN = "minimum_ratio_contours_origin"
 
@@ -54,7 +56,7 @@ def _with_lost(plan, lost):
     """The plan in which all new paths are taken but those that are lost."""
     everything_stays = np.arange(plan.topology.face_count)
     taken = [path is not None and i not in lost for i, path in enumerate(plan.paths)]
-    return replace(plan, settlement=networks.Settlement(taken, dict(lost), everything_stays, everything_stays))
+    return replace(plan, settlement=Settlement(taken, dict(lost), everything_stays, everything_stays))
 
 
 def _lost_when_cut(obj, plan, merge):
@@ -86,7 +88,7 @@ def _results(plan):
 
 
 def _topology(obj):
-    return networks.make_topology(**vars(mesh_access.read_edge_arrays(obj)))
+    return make_topology(**vars(mesh_access.read_edge_arrays(obj)))
 
 
 @contextmanager

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
-from . import api, jobs, mesh_access, network_cutting, networks, outputs, panels, report, seams, segmentation, selection
+from . import api, flags, jobs, mesh_access, network_cutting, networks, panels, report, seams, segmentation, selection
+from .chains import Network
 from .operators import CutSettings, NetworkSettings, SearchInEditMode
 
 
@@ -17,7 +18,7 @@ class Task:
     obj: bpy.types.Object
     problem: str = ""  # why there is no network
     about: object = None  # what the operator must know to write it
-    network: networks.Network = None
+    network: Network = None
     arrays: object = None  # of the mesh, where something is movable
     surface: object = None  # the native one made from them
     asymmetric: bool = False  # whether mirror images were asked for and are not there
@@ -131,7 +132,7 @@ Where seams meet they stay together, and every island stays one island"""
         seams.write(task.obj, plan, selection=task.about)
 
     def _written(self, context):
-        outputs.unwrap_live(context, [obj.data for obj in context.objects_in_mode_unique_data])
+        flags.unwrap_live(context, [obj.data for obj in context.objects_in_mode_unique_data])
 
     def _draw_source(self, layout, context):
         layout.prop(self, "selected_only")

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The seams of a mesh as a network of contours, and back."""
 
-from . import columns, mesh_access, networks, outputs, report
+from . import columns, flags, mesh_access, report
+from .chains import make_network
+from .topology import make_topology
 
 
 def read_network(obj, selected_only=False):
@@ -9,10 +11,10 @@ def read_network(obj, selected_only=False):
 
     Every island of the UV map stays one island, on the same side of its seams.
     """
-    topology = networks.make_topology(**vars(mesh_access.read_edge_arrays(obj)))
+    topology = make_topology(**vars(mesh_access.read_edge_arrays(obj)))
     seams, selected = mesh_access.read_seams(obj)
     chosen = seams & (selected | _images(obj, topology, seams & selected)) if selected_only else seams
-    return networks.make_network(topology, seams, chosen)
+    return make_network(topology, seams, chosen)
 
 
 def lacks_images(obj):
@@ -45,7 +47,7 @@ def only_seams_selected(obj):
 def write(obj, plan, selection=False):
     """Moves the seams; in Edit Mode the selection along them too, where that is wanted."""
     if columns.is_edited(obj):
-        outputs.move_flag(obj.data, "SEAM", plan.old_edges(), plan.new_edges(), selection)
+        flags.move_flag(obj.data, "SEAM", plan.old_edges(), plan.new_edges(), selection)
     else:
         edges = (plan.topology.find(pairs)[0] for pairs in (plan.old_edges(), plan.new_edges()))
         mesh_access.write_seams(obj.data, *edges)

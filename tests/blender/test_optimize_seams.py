@@ -207,8 +207,7 @@ def test_nothing_better(last):
     before = everything(obj)
     assert run() == {"FINISHED"}  # a result, whose settings the redo panel may change
     assert last.message == (
-        "No better place was found for the seams "
-        "(it is already the best nearby: raise Width or Reach to look farther)"
+        "No better place was found for the seams (it is already the best nearby: raise Width or Reach to look farther)"
     )
     assert everything(obj) == before
 
