@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes and rough loops that the tests make, and what they read back."""
+"""Meshes and rough loops that the tests make, what they run, and what they read back."""
 
 import bmesh
 import bpy
@@ -150,6 +150,15 @@ def everything(obj):
         "faces": [(*ids(face), face.select, face.hide, face.smooth, face.material_index) for face in bm.faces],
         "layers": layers(bm),
     }
+
+
+OUTPUTS = ("SELECT", "SEAM", "SHARP", "CUT", "RIP", "SEPARATE")
+GROOVE_EDGES = edge_set(ring(GROOVE))
+START = rough_loop(GROOVE - 3)  # near enough to find the groove
+
+
+def run(**properties):
+    return bpy.ops.mesh.optimize_contour(**properties)
 
 
 LAYER_TYPES = ("float", "float_color", "float_vector", "int", "bevel_weight", "crease", "deform", "shape", "uv")

@@ -8,6 +8,7 @@ import bpy
 import pytest
 from made_meshes import (
     GROOVE,
+    OUTPUTS,
     RINGS,
     SEGMENTS,
     edge_set,
@@ -24,8 +25,6 @@ from made_meshes import (
     torus_ring,
 )
 from minimum_ratio_contours import native
-
-OUTPUTS = ["SELECT", "SEAM", "SHARP", "CUT", "RIP", "SEPARATE"]
 
 
 def cancelled(obj, **properties):

@@ -9,6 +9,7 @@ from made_meshes import (
     GROOVE,
     RINGS,
     SEGMENTS,
+    START,
     edge_set,
     edit,
     everything,
@@ -18,17 +19,12 @@ from made_meshes import (
     pairs,
     ring,
     rough_loop,
+    run,
     select,
     select_faces_below,
     set_flag,
 )
 from minimum_ratio_contours import api
-
-START = rough_loop(GROOVE - 3)
-
-
-def run(**properties):
-    return bpy.ops.mesh.optimize_contour(**properties)
 
 
 def start(obj, loop=START, mode="EDGE"):

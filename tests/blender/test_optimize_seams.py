@@ -9,6 +9,7 @@ from made_meshes import (
     GROOVE,
     RINGS,
     SEGMENTS,
+    START,
     dumbbell,
     edge_set,
     edit,
@@ -25,8 +26,6 @@ from made_meshes import (
     torus_ring,
 )
 from minimum_ratio_contours import api, mesh_access, native, parameters
-
-START = rough_loop(GROOVE - 3)
 
 
 def start(seams, **more):

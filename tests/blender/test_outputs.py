@@ -8,8 +8,11 @@ import pytest
 from contour_shapes import edges_by_ends
 from made_meshes import (
     GROOVE,
+    GROOVE_EDGES,
+    OUTPUTS,
     RINGS,
     SEGMENTS,
+    START,
     dumbbell,
     edge_set,
     edit,
@@ -20,6 +23,7 @@ from made_meshes import (
     pairs,
     ring,
     rough_loop,
+    run,
     select,
     select_faces_below,
     set_flag,
@@ -28,14 +32,7 @@ from made_meshes import (
 )
 from minimum_ratio_contours import contours
 
-GROOVE_EDGES = edge_set(ring(GROOVE))
-START = rough_loop(GROOVE - 3)
 REFINED = {"refinement": 2, "min_salience": 0.0}
-ALL_OUTPUTS = ["SELECT", "SEAM", "SHARP", "CUT", "RIP", "SEPARATE"]
-
-
-def run(**properties):
-    return bpy.ops.mesh.optimize_contour(**properties)
 
 
 def tilted_cylinder(name="Cylinder"):
@@ -86,7 +83,7 @@ def is_sound(obj):
 # ---- refined contours
 
 
-@pytest.mark.parametrize("output", ALL_OUTPUTS[:4])
+@pytest.mark.parametrize("output", OUTPUTS[:4])
 def test_a_refined_contour_is_cut_into_the_faces(output):
     obj = start(tilted_cylinder)
     faces = len(bm_of(obj).faces)
@@ -100,7 +97,7 @@ def test_a_refined_contour_is_cut_into_the_faces(output):
     assert flagged(obj, "sharp") == (selected if output == "SHARP" else set())
 
 
-@pytest.mark.parametrize("output", ALL_OUTPUTS[:4])
+@pytest.mark.parametrize("output", OUTPUTS[:4])
 def test_a_regular_contour_cuts_nothing(output):
     obj = start(tilted_cylinder)
     before = everything(obj)
@@ -155,7 +152,7 @@ def half_way(row):
     return rough_loop(row)[: SEGMENTS // 2 + 2]
 
 
-@pytest.mark.parametrize("output", ALL_OUTPUTS[:5])
+@pytest.mark.parametrize("output", OUTPUTS[:5])
 def test_an_open_chain_keeps_its_first_and_last_edge(output, last):
     chain = half_way(GROOVE - 1)
     obj = grooved_cylinder()
@@ -634,7 +631,7 @@ def cylinder():
 
 @pytest.mark.parametrize("mode", ["EDGE", "FACE"])
 @pytest.mark.parametrize("normals", [False, True])
-@pytest.mark.parametrize("output", ALL_OUTPUTS[2:])
+@pytest.mark.parametrize("output", OUTPUTS[2:])
 def test_undo_and_redo_of_cuts(output, normals, mode):
     obj = with_custom_normals(tilted_cylinder) if normals else tilted_cylinder()
     edit(obj, mode=mode)

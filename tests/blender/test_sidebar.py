@@ -11,18 +11,17 @@ import pytest
 from made_meshes import (
     GROOVE,
     SEGMENTS,
+    START,
     edit,
     flagged,
     grooved_cylinder,
     pairs,
     ring,
-    rough_loop,
     select,
     set_flag,
 )
 from minimum_ratio_contours import menus, panels, parameters, preferences, presets, segmentation
 
-START = rough_loop(GROOVE - 3)
 WINDOW_ONLY = "mesh.show_curvature_directions"  # the tests of the window run it
 
 
