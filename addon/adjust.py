@@ -7,8 +7,9 @@ import bpy
 from bpy.props import CollectionProperty, IntProperty
 from bpy_extras import view3d_utils
 
-from . import adjust_state, native, panels, report, selection
+from . import adjust_state, native, outputs, panels, report, selection
 from .adjust_state import CANCEL, CONFIRM, IGNORE, PASS, PIN, State
+from .constraint_arrays import OutsideBand
 from .operators import ContourConstraints, ContourOutput, ContourSettings, Folds, InEditMode, properties_of
 from .preview import Preview
 
@@ -132,12 +133,16 @@ class MESH_OT_adjust_contour(ContourSettings, ContourConstraints, ContourOutput,
 
     def _search(self):
         """Searches all contours with the state's settings; where that cannot be done, `_problem` says why."""
-        self._problem = ""
-        for _, preview in self._previews:
+        self._outside = {}  # by object, required vertices where nothing is searched
+        self._problem = report.pins_outside(self._state.stray_pins(self._contour_count()))
+        for obj, preview in self._previews:
             try:
                 preview.search(self._state)
             except ValueError as error:
-                self._problem = report.unsearchable(error, preview.pins_outside(self._state))
+                pins_outside = preview.pins_outside(self._state)
+                self._problem = report.unsearchable(error, pins_outside)
+                if isinstance(error, OutsideBand) and not pins_outside:
+                    self._outside[obj] = error.vertices
 
     def _step(self, context, state):
         """Goes on with other settings or pins; one command changes one thing, and the output needs no search.
@@ -164,6 +169,9 @@ class MESH_OT_adjust_contour(ContourSettings, ContourConstraints, ContourOutput,
         if self._timer is not None:
             context.window_manager.event_timer_remove(self._timer)
             self._timer = None
+
+    def _contour_count(self):
+        return sum(len(preview.outcomes) for _, preview in self._previews)
 
     def _faces(self):
         """How many faces are searched."""
@@ -194,10 +202,13 @@ class MESH_OT_adjust_contour(ContourSettings, ContourConstraints, ContourOutput,
         return self._apply(context)
 
     def _apply(self, context):
+        parts, outside = self._parts, self._outside
+        self._parts = self._previews = self._outside = None  # Blender keeps past operators: not their meshes too
+        if outside:
+            outputs.select_vertices(outside)
+            return self.tell(context, "WARNING", self._problem)
         if self._problem:
             return self.give_up(context, "WARNING", self._problem)
-        parts = self._parts
-        self._parts = self._previews = None  # Blender keeps past operators: not their meshes too
         return self.finish(context, parts, self._wish)
 
     def _pinned(self, event):

@@ -54,6 +54,10 @@ class State:
         """The vertices pinned on one contour, ascending."""
         return sorted(vertex for owner, vertex in self.pins if owner == contour)
 
+    def stray_pins(self, count):
+        """How many pins are on none of so many contours."""
+        return sum(not 0 <= owner < count for owner, _ in self.pins)
+
     def toggled(self, contour, vertex):
         """Pins a vertex, or unpins it, whichever contour it is pinned on."""
         pinned = frozenset(pin for pin in self.pins if pin[1] == vertex)

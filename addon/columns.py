@@ -30,10 +30,15 @@ if bpy.app.version < (4, 1, 0):
     _BEHIND.clear()  # copies are copied
 
 
+def is_edited(obj):
+    """Whether the object's mesh is in Edit Mode, be it through another object that shares it."""
+    return obj.data.is_editmode
+
+
 @contextmanager
 def with_attributes(obj):
     """The object's mesh, or for the time being a copy of it, that shows its attributes."""
-    if not obj.data.is_editmode:
+    if not is_edited(obj):
         yield obj.data
         return
     try:

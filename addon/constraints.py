@@ -45,7 +45,7 @@ def _group(obj, name):
     group = obj.vertex_groups.get(name)
     if group is None:
         raise ValueError(report.no_layer("vertex group", name))
-    return (_weights_in_edit_mode if obj.data.is_editmode else _weights)(obj.data, group.index)
+    return (_weights_in_edit_mode if columns.is_edited(obj) else _weights)(obj.data, group.index)
 
 
 def _weights_in_edit_mode(mesh, index):

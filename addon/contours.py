@@ -60,7 +60,15 @@ def along(vertices, directed_edges, closed=True):
 
 
 def with_mirror_images(edges, points, visible_edges, tolerance=_MIRROR_TOLERANCE):
-    """The (n, 2) edges and, turned round, their images across x = 0; None where an image is missing or in the way.
+    """The (n, 2) edges and, turned round, their images across x = 0; None where an image is missing or in the way."""
+    both = with_images(edges, points, visible_edges, tolerance)
+    if both is None:
+        return None
+    return both if len(sort_edges(both).branching) <= len(sort_edges(edges).branching) else None
+
+
+def with_images(edges, points, visible_edges, tolerance=_MIRROR_TOLERANCE):
+    """The same, also where an image meets an edge and they branch.
 
     Turned round, what lay to the left of an edge lies to the left of its image.
     """
@@ -69,8 +77,7 @@ def with_mirror_images(edges, points, visible_edges, tolerance=_MIRROR_TOLERANCE
     if np.any(images < 0) or len(common_edges(images, _among(visible_edges, images))) < len(images):
         return None
     own = {frozenset(pair) for pair in edges.tolist()}
-    both = np.concatenate([edges, images[[frozenset(pair) not in own for pair in images.tolist()]]])
-    return both if len(sort_edges(both).branching) <= len(sort_edges(edges).branching) else None
+    return np.concatenate([edges, images[[frozenset(pair) not in own for pair in images.tolist()]]])
 
 
 def common_edges(edges, others):

@@ -35,6 +35,9 @@ def restore(context):
     """Sets the normals that were noted, on all meshes that have some; leaves Edit Mode for it and comes back."""
     editing = context.objects_in_mode[:]
     selected = context.selected_objects[:]
+    held = [obj for obj in editing if obj.hide_select]  # which could not be selected
+    for obj in held:
+        obj.hide_select = False
     for obj in selected:
         obj.select_set(obj in editing)
     bpy.ops.object.mode_set(mode="OBJECT")
@@ -46,6 +49,8 @@ def restore(context):
     bpy.ops.object.mode_set(mode="EDIT")
     for obj in {*selected, *editing}:
         obj.select_set(obj in selected)
+    for obj in held:
+        obj.hide_select = True
 
 
 def set_noted(mesh):

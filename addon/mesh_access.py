@@ -5,6 +5,7 @@ from dataclasses import dataclass, fields
 from functools import cached_property
 
 import bmesh
+import bpy
 import numpy as np
 
 from . import columns, contours
@@ -39,7 +40,7 @@ class MeshArrays:
 
 def synchronize(obj):
     """Brings the mesh up to date with what was done in Edit Mode; until then its arrays are those of before."""
-    if obj.mode == "EDIT":
+    if columns.is_edited(obj):
         obj.update_from_editmode()
 
 
@@ -61,6 +62,7 @@ class EdgeSelection:
 
     edges: np.ndarray  # in face mode directed: the selected face is to the left
     loose: np.ndarray
+    borderless: bool = False  # whether there are selected faces without such a border
 
 
 def read_selection(obj, face_mode):
@@ -70,7 +72,8 @@ def read_selection(obj, face_mode):
     """
     if face_mode:
         directed = _selected_border(obj)
-        return EdgeSelection(directed, directed[:0])
+        borderless = len(directed) == 0 and bool(columns.read(obj, "polygons", "select", bool).any())
+        return EdgeSelection(directed, directed[:0], borderless)
     chosen = np.flatnonzero(columns.read(obj, "edges", "select", bool))
     edges = columns.read(obj, "edges", "vertices", np.int32, 2)[chosen]
     used = np.zeros(len(obj.data.edges), dtype=bool)
@@ -80,7 +83,7 @@ def read_selection(obj, face_mode):
 
 @dataclass(frozen=True)
 class EdgeArrays:
-    """What networks.make_topology is made from, in its order."""
+    """What topology.make_topology is made from, in its order."""
 
     edges: np.ndarray
     face_offsets: np.ndarray
@@ -148,12 +151,13 @@ def write_labels(mesh, attribute, faces, labels):
     bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
 
 
-def with_mirror_images(obj, edges):
-    """The edges with their mirror images, or None; see contours.with_mirror_images."""
+def with_mirror_images(obj, edges, may_branch=False):
+    """The edges with their mirror images, or None; see contours.with_mirror_images, or with_images."""
     edge_vertices, hidden = (
         columns.read(obj, "edges", *column) for column in (("vertices", np.int32, 2), ("hide", bool))
     )
-    return contours.with_mirror_images(edges, _read_points(obj), edge_vertices[~hidden])
+    find = contours.with_images if may_branch else contours.with_mirror_images
+    return find(edges, _read_points(obj), edge_vertices[~hidden])
 
 
 def is_unevenly_scaled(obj):
@@ -197,9 +201,18 @@ def _read_points(obj):
 
 def _shown_points(obj):
     """Edit Mode shows the active shape key; the mesh's own vertices stay those of the reference key."""
-    if obj.mode == "EDIT" and obj.data.shape_keys and obj.active_shape_key_index > 0:
-        return obj.active_shape_key.data
+    if columns.is_edited(obj) and obj.data.shape_keys:
+        editing = _editing_object(obj)
+        if editing.active_shape_key_index > 0:
+            return editing.active_shape_key.data
     return obj.data.vertices
+
+
+def _editing_object(obj):
+    """The one through which a mesh is in Edit Mode: each of those that share it has an active key of its own."""
+    if obj.mode == "EDIT":
+        return obj
+    return next((other for other in bpy.data.objects if other.data == obj.data and other.mode == "EDIT"), obj)
 
 
 def _determinants(axes, corners):

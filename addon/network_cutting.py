@@ -8,7 +8,9 @@ import bmesh
 import bpy
 import numpy as np
 
-from . import custom_normals, cutting, mesh_access, networks
+from . import columns, custom_normals, cutting, mesh_access, networks
+from .settlement import Settlement
+from .topology import make_topology
 
 _ORIGIN = "minimum_ratio_contours_origin"
 
@@ -47,14 +49,14 @@ def cut(obj, plan, merge=0.0):
 def restore_normals(context, obj):
     """Sets the custom normals that were noted, once the plan is written."""
     if custom_normals.are_noted(obj.data):
-        custom_normals.restore(context) if obj.data.is_editmode else custom_normals.set_noted(obj.data)
+        custom_normals.restore(context) if columns.is_edited(obj) else custom_normals.set_noted(obj.data)
 
 
 def _with_lost(plan, lost):
     """The plan in which all new paths are taken but those that are lost."""
     everything_stays = np.arange(plan.topology.face_count)
     taken = [path is not None and i not in lost for i, path in enumerate(plan.paths)]
-    return replace(plan, settlement=networks.Settlement(taken, dict(lost), everything_stays, everything_stays))
+    return replace(plan, settlement=Settlement(taken, dict(lost), everything_stays, everything_stays))
 
 
 def _lost_when_cut(obj, plan, merge):
@@ -86,13 +88,13 @@ def _results(plan):
 
 
 def _topology(obj):
-    return networks.make_topology(**vars(mesh_access.read_edge_arrays(obj)))
+    return make_topology(**vars(mesh_access.read_edge_arrays(obj)))
 
 
 @contextmanager
 def _copy(obj):
     """A bmesh like the mesh, in the same order."""
-    bm = bmesh.from_edit_mesh(obj.data).copy() if obj.data.is_editmode else _loaded(obj.data)
+    bm = bmesh.from_edit_mesh(obj.data).copy() if columns.is_edited(obj) else _loaded(obj.data)
     try:
         yield bm
     finally:
@@ -103,7 +105,7 @@ def _copy(obj):
 def _opened(obj):
     """The mesh itself as a bmesh, whose changes are written in the end."""
     mesh = obj.data
-    if mesh.is_editmode:
+    if columns.is_edited(obj):
         bm = bmesh.from_edit_mesh(mesh)
         yield bm
         bm.select_flush_mode()

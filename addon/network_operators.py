@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
-from . import api, jobs, mesh_access, network_cutting, networks, outputs, panels, report, seams, segmentation
+from . import api, flags, jobs, mesh_access, network_cutting, networks, panels, report, seams, segmentation, selection
+from .chains import Network
 from .operators import CutSettings, NetworkSettings, SearchInEditMode
 
 
@@ -17,8 +18,10 @@ class Task:
     obj: bpy.types.Object
     problem: str = ""  # why there is no network
     about: object = None  # what the operator must know to write it
-    network: networks.Network = None
-    surface: object = None  # where something is movable
+    network: Network = None
+    arrays: object = None  # of the mesh, where something is movable
+    surface: object = None  # the native one made from them
+    asymmetric: bool = False  # whether mirror images were asked for and are not there
     plan: networks.Plan = None
 
 
@@ -33,12 +36,21 @@ def optimize_tasks(tasks, settings, progress=None):
             task.problem = report.problem(error)
 
 
+def _warnings(task):
+    """What the user should know about how the object is measured, where anything was; before it is written."""
+    if not (task.plan and task.plan.taken_results()):
+        return []
+    return selection.warnings_of(task.obj, task.arrays) + [report.not_mirrored(task.obj.name)] * task.asymmetric
+
+
 class NetworkOperator(NetworkSettings, CutSettings, SearchInEditMode):
     """What both have in common."""
 
     def read(self, context):
         objects = context.objects_in_mode_unique_data
-        return [self._read_task(obj, objects) for obj in objects]
+        for obj in objects:
+            mesh_access.synchronize(obj)
+        return [self._read_task(obj, objects) for obj in objects if obj.data.polygons]
 
     def search(self, tasks):
         sound, settings = [task for task in tasks if not task.problem], self.settings()
@@ -49,10 +61,12 @@ class NetworkOperator(NetworkSettings, CutSettings, SearchInEditMode):
             task.plan = task.plan and network_cutting.settled(task.obj, task.plan, self.merge)
         outcomes = [outcome for task in tasks for outcome in self._outcomes(task)]
         if not outcomes:
-            return self.give_up(context, "WARNING", self.nothing)
+            return self.give_up(context, "WARNING", self._nothing())
         moved = [task for task in tasks if task.plan and task.plan.changed]
-        message = report.network_summary(outcomes, self.noun)
-        level = "WARNING" if any(outcome.problem for outcome in outcomes) else "INFO"
+        warnings = [warning for task in tasks for warning in _warnings(task)]
+        notes = warnings + report.turn_notes(outcomes, self.settings())
+        message = report.network_summary(outcomes, self.noun, notes)
+        level = "WARNING" if warnings or any(outcome.problem for outcome in outcomes) else "INFO"
         if all(outcome.problem for outcome in outcomes):
             return self.give_up(context, level, message, outcomes)
         for task in moved:
@@ -74,12 +88,11 @@ class NetworkOperator(NetworkSettings, CutSettings, SearchInEditMode):
         panels.draw_more_settings(layout, self)
 
     def _read_task(self, obj, objects):
-        mesh_access.synchronize(obj)
         task = Task(obj)
         try:
             self._read_network(task)
             if task.network.movable:
-                task.surface = api.surface_of(obj, beside=objects)
+                task.arrays, task.surface = api.arrays_and_surface_of(obj, beside=objects)
         except ValueError as error:
             task.problem = report.problem(error)
         return task
@@ -97,7 +110,6 @@ Where seams meet they stay together, and every island stays one island"""
     bl_idname = "mesh.optimize_seams"
     bl_label = "Optimize Seams"
     noun = "seams"
-    nothing = "Nothing to optimize: there are no seams of two edges or more; mark some, or clear Selected Only"
 
     selected_only: BoolProperty(
         name="Selected Only",
@@ -107,7 +119,11 @@ Where seams meet they stay together, and every island stays one island"""
 
     def _read_network(self, task):
         task.network = seams.read_network(task.obj, self.selected_only)
+        task.asymmetric = self.selected_only and seams.lacks_images(task.obj)
         task.about = self.selected_only and seams.only_seams_selected(task.obj)
+
+    def _nothing(self):
+        return report.no_seams(self.selected_only)
 
     def _chain_outcomes(self, task):
         return seams.outcomes(task.obj.name, task.plan)
@@ -116,7 +132,7 @@ Where seams meet they stay together, and every island stays one island"""
         seams.write(task.obj, plan, selection=task.about)
 
     def _written(self, context):
-        outputs.unwrap_live(context, [obj.data for obj in context.objects_in_mode_unique_data])
+        flags.unwrap_live(context, [obj.data for obj in context.objects_in_mode_unique_data])
 
     def _draw_source(self, layout, context):
         layout.prop(self, "selected_only")
@@ -129,7 +145,6 @@ Where three regions meet they stay together, and no region is lost"""
     bl_idname = "mesh.optimize_segmentation"
     bl_label = "Optimize Segmentation"
     noun = "borders"
-    nothing = "Nothing to optimize: there are no borders between regions; choose another source, or label some faces"
 
     source: EnumProperty(
         name="Regions",
@@ -146,6 +161,9 @@ Where three regions meet they stay together, and no region is lost"""
     def _read_network(self, task):
         task.about = segmentation.read_labelling(task.obj, self.source, self.attribute)
         task.network = segmentation.read_network(task.obj, task.about)
+
+    def _nothing(self):
+        return report.NO_BORDERS
 
     def _chain_outcomes(self, task):
         return segmentation.outcomes(task.obj.name, task.about, task.plan)

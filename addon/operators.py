@@ -112,14 +112,16 @@ class ContourOutput(CutSettings):
         if not outcomes:
             return self.give_up(context, "WARNING", report.NOTHING_SELECTED)
         warnings = [warning for part in parts for warning in part.warnings]
-        message = report.summary(outcomes, warnings)
+        message = report.summary(outcomes, warnings + report.turn_notes(outcomes, self.settings()))
         level = "WARNING" if warnings or any(outcome.problem for outcome in outcomes) else "INFO"
-        if any(part.outside for part in parts):
-            outputs.select_vertices(context, {part.obj: part.outside for part in parts})
-            return self.tell(context, level, message, outcomes)
-        if not outputs.is_possible(parts, wish):
+        outside = {part.obj: part.outside for part in parts if len(part.outside)}
+        possible = outputs.is_possible(parts, wish)
+        if not (possible or outside):
             return self.give_up(context, level, message, outcomes)
-        outputs.write(context, parts, wish)
+        if possible:
+            outputs.write(context, parts, wish)
+        if outside:
+            outputs.select_vertices(outside)
         return self.tell(context, level, message, outcomes)
 
 

@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What becomes of the contours found, in the meshes in Edit Mode: flags, selection, cuts, rips, parts of their own."""
 
-from contextlib import contextmanager
 from dataclasses import dataclass
 
 import bmesh
 import bpy
 
-from . import custom_normals, cutting, mesh_access, report, sides
+from . import custom_normals, cutting, flags, mesh_access, report, sides
 
-FLAGS = {"SEAM": ("seam", True), "SHARP": ("smooth", False)}
 PARTING = ("RIP", "SEPARATE")
 
 
@@ -91,25 +89,23 @@ def write(context, parts, wish):
     for cut in cut_parts:
         cut.write()
     if wish.output == "SEAM":
-        unwrap_live(context, [part.obj.data for part in parts])
+        flags.unwrap_live(context, [part.obj.data for part in parts])
     if wish.output == "SEPARATE":
         _separate(context, cut_parts)
     if any(cut.normals_kept for cut in cut_parts):
         custom_normals.restore(context)
 
 
-def select_vertices(context, vertices_of):
-    """Shows some vertices of each object: in vertex mode, they alone selected."""
-    context.tool_settings.mesh_select_mode = (True, False, False)
-    bpy.ops.mesh.select_all(action="DESELECT")
+def select_vertices(vertices_of):
+    """Shows some vertices of objects: in vertex mode, they alone selected there; other objects keep their selection."""
+    bpy.ops.mesh.select_mode(type="VERT")
     for obj, vertices in vertices_of.items():
         bm = bmesh.from_edit_mesh(obj.data)
-        bm.select_mode = {"VERT"}
         bm.verts.ensure_lookup_table()
-        for vertex in vertices:
-            if not bm.verts[vertex].hide:
-                bm.verts[vertex].select_set(True)
-        bm.select_flush_mode()
+        shown = [bm.verts[vertex] for vertex in vertices if not bm.verts[vertex].hide]
+        flags.select_each([bm.verts], False)
+        flags.select_each([shown], True)
+        flags.flush_selection(bm)
         bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)
 
 
@@ -130,8 +126,8 @@ class _Cut:
         self.seeds = []  # a face of each part that is cut off
 
     def write(self):
-        if self.wish.output in FLAGS:
-            _set_flag(self.edges, self.wish.output, True)
+        if self.wish.output in flags.FLAGS:
+            flags.set_flag(self.edges, self.wish.output, True)
         moved = self._move_selected_faces() if self.wish.face_mode else set()
         self.seeds = [
             sides.face_beside(self.bm, *contour, on_left)
@@ -145,8 +141,8 @@ class _Cut:
                 moved | {face for edge in self.edges for vertex in edge.verts for face in vertex.link_faces}
             )
         else:
-            _select_each([self.edges], True)
-        _flush_selection(self.bm)
+            flags.select_each([self.edges], True)
+        flags.flush_selection(self.bm)
         bmesh.update_edit_mesh(self.mesh, loop_triangles=self.changes_faces, destructive=self.changes_faces)
 
     def _edges_along(self, chains):
@@ -155,10 +151,10 @@ class _Cut:
     def _forget_old(self, old_edges):
         """Before the cut: afterwards the given edges may be in pieces."""
         edges = mesh_access.find_edges(self.bm, old_edges)
-        if self.wish.output in FLAGS and not self.wish.keep_old:
-            _set_flag(edges, self.wish.output, False)
+        if self.wish.output in flags.FLAGS and not self.wish.keep_old:
+            flags.set_flag(edges, self.wish.output, False)
         if not self.wish.face_mode:
-            _select_each([edges], False)
+            flags.select_each([edges], False)
 
     def _move_selected_faces(self):
         """The selected part lies to the left of its contours: what they passed over changes sides, and is returned."""
@@ -194,65 +190,10 @@ def _tidy_selection(faces):
 
 def _separate(context, cut_parts):
     """Makes each part an object of its own; the rest keeps its selection."""
-    with _nothing_selected([obj.data for obj in context.objects_in_mode_unique_data]):
+    with flags.nothing_selected([obj.data for obj in context.objects_in_mode_unique_data]):
         for cut in cut_parts:
             for seed in cut.seeds:
                 if seed.is_valid:  # else another contour of the same part came first
                     seed.select_set(True)
                     bpy.ops.mesh.select_linked(delimit=set())
                     bpy.ops.mesh.separate(type="SELECTED")
-
-
-@contextmanager
-def _nothing_selected(meshes):
-    """Deselects everything for Blender's own operators; afterwards what is left of it is selected again."""
-    bms = [bmesh.from_edit_mesh(mesh) for mesh in meshes]
-    selected = [
-        [element for kind in (bm.verts, bm.edges, bm.faces) for element in kind if element.select] for bm in bms
-    ]
-    _select_each(selected, False)
-    yield
-    _select_each(selected, True)
-    for mesh, bm in zip(meshes, bms):
-        bm.select_flush_mode()
-        bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
-
-
-def _select_each(element_lists, value):
-    for elements in element_lists:
-        for element in elements:
-            if element.is_valid:
-                element.select_set(value)
-
-
-def _set_flag(edges, output, value):
-    name, meaning = FLAGS[output]
-    for edge in edges:
-        setattr(edge, name, meaning if value else not meaning)
-
-
-def _flush_selection(bm):
-    """Lets everything follow that hangs on what is selected, as the select mode has it."""
-    bm.select_flush_mode()
-    bm.select_history.validate()
-
-
-def move_flag(mesh, output, old_edges, new_edges, selection=False):
-    """Takes a flag, and the selection, from edges and gives it to others, both as pairs of vertices; in Edit Mode."""
-    bm = bmesh.from_edit_mesh(mesh)
-    for pairs, value in ((old_edges, False), (new_edges, True)):
-        edges = mesh_access.find_edges(bm, pairs)
-        _set_flag(edges, output, value)
-        if selection:
-            _select_each([edges], value)
-    if selection:
-        _flush_selection(bm)
-    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
-
-
-def unwrap_live(context, meshes):
-    """Blender's own seam tool unwraps again where Live Unwrap is on; with nothing selected that is all that it does."""
-    if not context.tool_settings.use_edge_path_live_unwrap:
-        return
-    with _nothing_selected(meshes):
-        bpy.ops.mesh.mark_seam(clear=False)

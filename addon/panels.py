@@ -10,6 +10,8 @@ from . import native, report, show_directions
 from .parameters import CONSTRAINTS, MAIN, MORE, NETWORK
 
 OPERATOR = "mesh.optimize_contour"
+NETWORK_OPERATORS = ("mesh.optimize_seams", "mesh.optimize_segmentation")
+_SHARED = (*NETWORK, "merge")  # what networks take from the settings
 _SHOWN = 8  # contours with their numbers in the panel
 
 
@@ -44,11 +46,12 @@ def show_result(context, message, outcomes):
             _fill(last.contours.add(), outcome)
 
 
-def remember(context, values):
-    """Lets the operator's next run from the panel or a menu start from these values."""
-    settings = _remembered(context)
+def remember(context, values, operator=OPERATOR):
+    """Lets the operator's next run from the panel or a menu start from these values, of those that it has."""
+    settings = context.window_manager.operator_properties_last(operator)
     for name, value in values.items():
-        setattr(settings, name, value)
+        if hasattr(settings, name):
+            setattr(settings, name, value)
 
 
 def draw_redo(layout, operator, obj):
@@ -142,11 +145,22 @@ def _draw_marks(layout, settings, name):
     column.row(align=True).prop(settings, name, expand=True)
 
 
-class VIEW3D_PT_minimum_ratio_contours(bpy.types.Panel):
-    bl_label = "Contours"
+class InSidebar:
+    """Where the panels are."""
+
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = "Contours"
+
+
+class InMainPanel(InSidebar):
+    """Where the panels below the main one are."""
+
+    bl_parent_id = "VIEW3D_PT_minimum_ratio_contours"
+
+
+class VIEW3D_PT_minimum_ratio_contours(InSidebar, bpy.types.Panel):
+    bl_label = "Contours"
     bl_context = "mesh_edit"
 
     def draw(self, context):
@@ -166,12 +180,8 @@ class VIEW3D_PT_minimum_ratio_contours(bpy.types.Panel):
         bpy.types.VIEW3D_PT_minimum_ratio_contours_presets.draw_panel_header(self.layout)
 
 
-class VIEW3D_PT_minimum_ratio_contours_result(bpy.types.Panel):
+class VIEW3D_PT_minimum_ratio_contours_result(InMainPanel, bpy.types.Panel):
     bl_label = "Last Result"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Contours"
-    bl_parent_id = "VIEW3D_PT_minimum_ratio_contours"
 
     @classmethod
     def poll(cls, context):
@@ -181,43 +191,30 @@ class VIEW3D_PT_minimum_ratio_contours_result(bpy.types.Panel):
         _draw_result(self.layout, context, context.window_manager.minimum_ratio_contours)
 
 
-class VIEW3D_PT_minimum_ratio_contours_more(bpy.types.Panel):
+class VIEW3D_PT_minimum_ratio_contours_more(InMainPanel, bpy.types.Panel):
     bl_label = "More Settings"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Contours"
-    bl_parent_id = "VIEW3D_PT_minimum_ratio_contours"
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
         draw_more_settings(self.layout.column(), _remembered(context))
 
 
-class VIEW3D_PT_minimum_ratio_contours_constraints(bpy.types.Panel):
+class VIEW3D_PT_minimum_ratio_contours_constraints(InMainPanel, bpy.types.Panel):
     bl_label = "Constraints"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Contours"
-    bl_parent_id = "VIEW3D_PT_minimum_ratio_contours"
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
         draw_constraints(self.layout.column(), _remembered(context), context.object)
 
 
-class VIEW3D_PT_minimum_ratio_contours_networks(bpy.types.Panel):
+class VIEW3D_PT_minimum_ratio_contours_networks(InMainPanel, bpy.types.Panel):
     bl_label = "Whole Mesh"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Contours"
-    bl_parent_id = "VIEW3D_PT_minimum_ratio_contours"
 
     def draw(self, context):
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        seams = context.window_manager.operator_properties_last("mesh.optimize_seams")
-        regions = context.window_manager.operator_properties_last("mesh.optimize_segmentation")
+        seams, regions = map(context.window_manager.operator_properties_last, NETWORK_OPERATORS)
         _draw_network_operator(layout, context, "mesh.optimize_seams", icon="UV_EDGESEL")
         layout.prop(seams, "selected_only")
         _draw_network_operator(layout, context, "mesh.optimize_segmentation", icon="FACE_MAPS")
@@ -226,12 +223,8 @@ class VIEW3D_PT_minimum_ratio_contours_networks(bpy.types.Panel):
             layout.prop_search(regions, "attribute", context.object.data, "attributes")
 
 
-class VIEW3D_PT_minimum_ratio_contours_curvature(bpy.types.Panel):
+class VIEW3D_PT_minimum_ratio_contours_curvature(InMainPanel, bpy.types.Panel):
     bl_label = "Curvature"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Contours"
-    bl_parent_id = "VIEW3D_PT_minimum_ratio_contours"
 
     def draw(self, context):
         column = self.layout.column(align=True)
@@ -245,7 +238,7 @@ class VIEW3D_PT_minimum_ratio_contours_curvature(bpy.types.Panel):
 def _draw_network_operator(layout, context, name, icon):
     """A button whose operator takes the settings of the panel above it."""
     button, settings = layout.operator(name, icon=icon), _remembered(context)
-    for setting in NETWORK:
+    for setting in _SHARED:
         setattr(button, setting, getattr(settings, setting))
 
 

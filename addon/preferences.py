@@ -9,15 +9,20 @@ from .operators import ContourOutput, ContourSettings, properties_of
 _PROPERTIES = properties_of(ContourSettings, ContourOutput)
 
 
-def _changed(preferences, context):
-    apply(context)
+def _applied(name):
+    """What Blender calls when this preference changes; what was set besides in the sidebar stays."""
+
+    def changed(preferences, context):
+        apply(context, (name,))
+
+    return changed
 
 
 class ContourPreferences(bpy.types.AddonPreferences):
     bl_idname = __package__
     # The same properties as the operator's, of which each change takes effect at once.
     __annotations__ = {
-        name: prop.function(**prop.keywords, update=_changed) for name, prop in sorted(_PROPERTIES.items())
+        name: prop.function(**prop.keywords, update=_applied(name)) for name, prop in sorted(_PROPERTIES.items())
     }
 
     def draw(self, context):
@@ -25,7 +30,7 @@ class ContourPreferences(bpy.types.AddonPreferences):
         problem = native.problem()
         if problem:
             layout.label(text=problem, icon="ERROR")
-        layout.label(text="What Optimize Contour starts from in each session:")
+        layout.label(text="What the operators start from in each session:")
         row = layout.row()
         panels.draw_settings(row.column(), self)
         panels.draw_more_settings(row.column(), self)
@@ -53,9 +58,11 @@ def values(context):
     return {name: getattr(preferences, name) for name in _PROPERTIES} if preferences else {}
 
 
-def apply(context):
-    """Lets the operator's next run start from the user's defaults."""
-    panels.remember(context, values(context))
+def apply(context, names=tuple(_PROPERTIES)):
+    """Lets the next run of each operator start from the user's defaults, of all properties or of those named."""
+    chosen = {name: value for name, value in values(context).items() if name in names}
+    for operator in (panels.OPERATOR, *panels.NETWORK_OPERATORS):
+        panels.remember(context, chosen, operator)
 
 
 def _find(context):

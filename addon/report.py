@@ -7,12 +7,15 @@ import numpy as np
 
 from . import native
 from .contours import contour_edges
+from .parameters import SETTINGS
 
 NOTHING_SELECTED = (
     "Nothing to optimize: select closed loops or open chains of edges, or faces in face mode to use their borders"
 )
 CANCELLED = "Cancelled: everything is as it was"
 CHANGED_MEANWHILE = "The mesh was changed during the search, so that nothing was written; run it again"
+NO_BORDER = "the selected faces have no border inside the mesh: deselect some"
+TURN_LESS = "Sharpest Turn is below its default: raise Sharpest Turn to let contours turn more"
 NO_FACES = "there are no faces, which alone are curved"
 NO_VIEW = "Contours are adjusted in a 3D View: move the mouse over one, or use Optimize Contour"
 _SALIENCES = (  # from this salience on, in words
@@ -39,6 +42,7 @@ _REASONS = {
     "none_refined": "no better contour was found across faces: set Refinement to 0, or raise it",
     "cancelled": "cancelled",
 }
+_SAME_ANGLE = 1e-5  # properties are floats of 32 bits
 _NAMED = 3  # of several alike, only so many are named
 
 
@@ -75,9 +79,12 @@ def summary(outcomes, notes=()):
 
 def _left(outcomes, left):
     """What was left as it is, and where; alike once."""
-    several_places = len({outcome.place for outcome in outcomes}) > 1
-    texts = [f"{outcome.place}: {outcome.problem}" if several_places else outcome.problem for outcome in left]
-    return "Left as it is: " + shortened(list(dict.fromkeys(texts)), "; ")
+    everywhere = len({outcome.place for outcome in outcomes})
+    places = {}
+    for outcome in left:
+        places.setdefault(outcome.problem, {})[outcome.place] = None
+    texts = [why if len(at) == everywhere else f"{shortened([*at])}: {why}" for why, at in places.items()]
+    return "Left as it is: " + shortened(texts, "; ")
 
 
 def single_edge(vertices):
@@ -89,6 +96,14 @@ def meets_another(vertices):
         f"the open chain from vertex {vertices[0]} to {vertices[-1]}, once closed, would meet another contour; "
         "select one chain or loop for each limb"
     )
+
+
+def turn_notes(outcomes, settings):
+    """What besides Width and Reach keeps a search from what is better, where nothing better was found."""
+    default = SETTINGS["max_turn"]["default"]
+    prunes = settings.get("max_turn", default) < default - _SAME_ANGLE
+    results = [outcome.result for outcome in outcomes if outcome.result is not None]
+    return [TURN_LESS] if prunes and any(result.reason_code == "already_best" for result in results) else []
 
 
 def problem(error):
@@ -105,11 +120,18 @@ def reason(result):
     return _REASONS[result.reason_code] + (f"; {beside} beside it kept the search back" if others else "")
 
 
-def unsearchable(error, pins_outside):
-    """Why nothing could be searched for with the pins there are."""
-    if pins_outside:
-        pins = "1 pinned vertex lies" if pins_outside == 1 else f"{pins_outside} pinned vertices lie"
-        return f"{pins} outside the band: widen it (wheel), or unpin (X)"
+def pins_outside(count):
+    """What to do about pins that no contour can reach; empty where there are none."""
+    if not count:
+        return ""
+    pins = "1 pinned vertex lies" if count == 1 else f"{count} pinned vertices lie"
+    return f"{pins} outside the band: widen it (wheel), or unpin (X)"
+
+
+def unsearchable(error, count):
+    """Why nothing could be searched for with the pins there are, so many of them outside the band."""
+    if count:
+        return pins_outside(count)
     if type(error).__name__ == "Infeasible":
         return "No contour in the band passes all pinned vertices: click one to unpin it, or widen the band (wheel)"
     return problem(error)
@@ -265,8 +287,8 @@ def network_outcomes(place, plan, why_lost):
     return outcomes
 
 
-def network_summary(outcomes, noun):
-    """One line for the status bar: how many moved, the ratios, and what was left out and why."""
+def network_summary(outcomes, noun, notes=()):
+    """One line for the status bar: how many moved, the ratios, what was left out and why, and notes."""
     results = [outcome.result for outcome in outcomes if outcome.result is not None]
     left = [outcome for outcome in outcomes if outcome.result is None]
     moved = sum(result.status == "improved" for result in results)
@@ -274,10 +296,26 @@ def network_summary(outcomes, noun):
     if moved:
         sentences = [f"{moved} of {len(outcomes)} {noun} moved", _ratios(results)]
     elif results:
-        sentences = [f"No better place was found for the {noun}"]
+        sentences = [_nothing_better(results, noun)]
     if left:
         sentences.append(_left(outcomes, left))
-    return ". ".join(sentences)
+    return ". ".join([*sentences, *dict.fromkeys(notes)])
+
+
+def _nothing_better(results, noun):
+    """With the reason, where all have the same."""
+    reasons = set(map(reason, results))
+    why = reasons.pop() if len(reasons) == 1 else ""
+    return f"No better place was found for the {noun}" + (f" ({why})" if why else "")
+
+
+NO_BORDERS = "Nothing to optimize: there are no borders between regions; choose another source, or label some faces"
+
+
+def no_seams(selected_only):
+    seams = "selected seams" if selected_only else "seams"
+    hint = ", or clear Selected Only" if selected_only else ""
+    return f"Nothing to optimize: there are no {seams} of two edges or more; mark some{hint}"
 
 
 def lost_region(labels, region):

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The seams of a mesh as a network of contours, and back."""
 
-from . import mesh_access, networks, outputs, report
+from . import columns, flags, mesh_access, report
+from .chains import make_network
+from .topology import make_topology
 
 
 def read_network(obj, selected_only=False):
@@ -9,10 +11,31 @@ def read_network(obj, selected_only=False):
 
     Every island of the UV map stays one island, on the same side of its seams.
     """
-    topology = networks.make_topology(**vars(mesh_access.read_edge_arrays(obj)))
+    topology = make_topology(**vars(mesh_access.read_edge_arrays(obj)))
     seams, selected = mesh_access.read_seams(obj)
-    chosen = seams & selected if selected_only else seams
-    return networks.make_network(topology, seams, chosen)
+    chosen = seams & (selected | _images(obj, topology, seams & selected)) if selected_only else seams
+    return make_network(topology, seams, chosen)
+
+
+def lacks_images(obj):
+    """Whether selected seams of a synchronized mesh should have mirror images, and some have none."""
+    seams, selected = mesh_access.read_seams(obj)
+    return obj.data.use_mirror_x and _with_images(obj, seams & selected) is None
+
+
+def _images(obj, topology, chosen):
+    """The chosen edges and, where X Mirror is on and the mesh is symmetric, their mirror images."""
+    both = _with_images(obj, chosen) if obj.data.use_mirror_x and chosen.any() else None
+    if both is None:
+        return chosen
+    images = chosen.copy()
+    images[topology.find(both)[0]] = True
+    return images
+
+
+def _with_images(obj, chosen):
+    edges = mesh_access.read_edge_arrays(obj).edges[chosen]
+    return mesh_access.with_mirror_images(obj, edges, may_branch=True) if len(edges) else edges
 
 
 def only_seams_selected(obj):
@@ -23,8 +46,8 @@ def only_seams_selected(obj):
 
 def write(obj, plan, selection=False):
     """Moves the seams; in Edit Mode the selection along them too, where that is wanted."""
-    if obj.data.is_editmode:
-        outputs.move_flag(obj.data, "SEAM", plan.old_edges(), plan.new_edges(), selection)
+    if columns.is_edited(obj):
+        flags.move_flag(obj.data, "SEAM", plan.old_edges(), plan.new_edges(), selection)
     else:
         edges = (plan.topology.find(pairs)[0] for pairs in (plan.old_edges(), plan.new_edges()))
         mesh_access.write_seams(obj.data, *edges)

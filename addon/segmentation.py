@@ -5,7 +5,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from . import mesh_access, networks, report
+from . import mesh_access, report
+from .chains import make_network
+from .topology import label_borders, make_topology
 
 FACE_SETS = ".sculpt_face_set"
 SOURCES = ("FACE_SETS", "MATERIAL", "ATTRIBUTE")
@@ -39,8 +41,8 @@ def read_network(obj, labelling):
 
     A region is one connected piece of one label.
     """
-    topology = networks.make_topology(**vars(mesh_access.read_edge_arrays(obj)))
-    return networks.make_network(topology, networks.label_borders(topology, labelling.labels))
+    topology = make_topology(**vars(mesh_access.read_edge_arrays(obj)))
+    return make_network(topology, label_borders(topology, labelling.labels))
 
 
 def new_labels(labelling, plan):

@@ -97,6 +97,8 @@ def read_part(obj, face_mode, close=False):
     images = mesh_access.with_mirror_images(obj, selection.edges) if mirror else None
     edges = selection.edges if images is None else images
     outcomes = _outcomes(obj.name, edges, face_mode)
+    if selection.borderless:
+        outcomes.append(report.Outcome(obj.name, edges, problem=report.NO_BORDER))
     for outcome in outcomes:
         outcome.closing = close and not face_mode and not outcome.closed
         outcome.problem = outcome.problem or _problem(outcome, selection.loose)
@@ -107,7 +109,7 @@ def read_part(obj, face_mode, close=False):
 def note_warnings(part):
     """What the user should know about how the object is measured, where anything was."""
     if part.done():
-        part.warnings = _warnings(part) + [report.not_mirrored(part.obj.name)] * part.asymmetric
+        part.warnings = warnings_of(part.obj, part.arrays) + [report.not_mirrored(part.obj.name)] * part.asymmetric
 
 
 def _outcomes(place, edges, face_mode):
@@ -123,11 +125,12 @@ def _outcomes(place, edges, face_mode):
     return [report.Outcome.of(place, vertices, closed) for vertices, closed in given] + branching
 
 
-def _warnings(part):
-    obj, warnings = part.obj, []
+def warnings_of(obj, arrays):
+    """What the user should know about how a synchronized mesh, with its arrays, is measured."""
+    warnings = []
     if mesh_access.is_unevenly_scaled(obj):
         warnings.append(report.uneven_scale(obj.name))
-    if mesh_access.is_inside_out(obj, part.arrays):
+    if mesh_access.is_inside_out(obj, arrays):
         warnings.append(report.inside_out(obj.name))
     return warnings
 

@@ -15,9 +15,10 @@ def empty_scene():
     settings.mesh_select_mode = (False, True, False)
     settings.use_edge_path_live_unwrap = False
     bpy.context.window_manager.minimum_ratio_contours.message = ""
-    remembered = bpy.context.window_manager.operator_properties_last("mesh.optimize_contour")
-    for name in list(remembered.keys()):
-        remembered.property_unset(name)
+    for operator in ("mesh.optimize_contour", "mesh.optimize_seams", "mesh.optimize_segmentation"):
+        remembered = bpy.context.window_manager.operator_properties_last(operator)
+        for name in list(remembered.keys()):
+            remembered.property_unset(name)
     api.forget()
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes and rough loops that the tests make, and what they read back."""
+"""Meshes and rough loops that the tests make, what they run, and what they read back."""
 
 import bmesh
 import bpy
@@ -42,6 +42,15 @@ def grooved_cylinder(name="Cylinder", depth=0.3, grooves=(GROOVE,)):
         for upper, following in pairs(ring(row))
     ]
     return mesh_object(name, positions, faces=faces)
+
+
+def dumbbell(offset=0.0):
+    """A cylinder along x with two grooves, to both sides of its middle, which may be off x = 0."""
+    obj = grooved_cylinder(grooves=(5, 15))
+    for vertex in obj.data.vertices:
+        x, y, _ = vertex.co
+        vertex.co = (vertex.index // SEGMENTS - 10) * 0.2 + offset, x, y
+    return obj
 
 
 def torus(major=24, minor=12):
@@ -141,6 +150,15 @@ def everything(obj):
         "faces": [(*ids(face), face.select, face.hide, face.smooth, face.material_index) for face in bm.faces],
         "layers": layers(bm),
     }
+
+
+OUTPUTS = ("SELECT", "SEAM", "SHARP", "CUT", "RIP", "SEPARATE")
+GROOVE_EDGES = edge_set(ring(GROOVE))
+START = rough_loop(GROOVE - 3)  # near enough to find the groove
+
+
+def run(**properties):
+    return bpy.ops.mesh.optimize_contour(**properties)
 
 
 LAYER_TYPES = ("float", "float_color", "float_vector", "int", "bevel_weight", "crease", "deform", "shape", "uv")

@@ -80,6 +80,15 @@ def test_pins_outside_the_band_are_counted(last):
     assert "2 pinned vertices" in last.message
 
 
+@pytest.mark.parametrize("contour", [-1, 1, 5])
+def test_pins_of_a_contour_that_is_not_there_are_outside(contour, last):
+    obj = prepared()
+    before = everything(obj)
+    assert ADJUST(pins=[pin(ABOVE, contour)]) == {"CANCELLED"}
+    assert everything(obj) == before
+    assert last.message.startswith("1 pinned vertex lies outside the band")
+
+
 def test_pins_that_no_contour_passes_are_explained(last):
     obj = prepared()
     before = everything(obj)

@@ -8,6 +8,7 @@ import bpy
 import pytest
 from made_meshes import (
     GROOVE,
+    OUTPUTS,
     RINGS,
     SEGMENTS,
     edge_set,
@@ -24,8 +25,6 @@ from made_meshes import (
     torus_ring,
 )
 from minimum_ratio_contours import native
-
-OUTPUTS = ["SELECT", "SEAM", "SHARP", "CUT", "RIP", "SEPARATE"]
 
 
 def cancelled(obj, **properties):
@@ -75,12 +74,26 @@ def test_everything_selected(last):
     assert "a selection that branches at vertices 0, 1, 2 and " in last.message
 
 
-def test_the_whole_mesh_in_face_mode_has_no_border_to_move(last):
+@pytest.mark.parametrize("several", [False, True])
+def test_the_whole_mesh_in_face_mode_has_no_border_to_move(several, last):
     obj = grooved_cylinder()
-    edit(obj, mode="FACE")
+    edit(obj, *([grooved_cylinder("Other")] if several else []), mode="FACE")
     bpy.ops.mesh.select_all(action="SELECT")
     cancelled(obj)
-    assert last.message.startswith("Nothing to optimize")
+    assert last.message == "Left as it is: the selected faces have no border inside the mesh: deselect some"
+
+
+def test_a_whole_mesh_beside_a_part_of_another_is_named(last):
+    obj, other = grooved_cylinder(), grooved_cylinder("Other")
+    edit(obj, other, mode="FACE")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bm = bmesh.from_edit_mesh(obj.data)
+    for face in bm.faces:
+        face.select_set(max(vertex.index for vertex in face.verts) < (GROOVE - 2) * SEGMENTS)
+    bmesh.update_edit_mesh(obj.data)
+    assert bpy.ops.mesh.optimize_contour(output="SEAM") == {"FINISHED"}
+    assert flagged(obj, "seam") == edge_set(ring(GROOVE))
+    assert "Other: the selected faces have no border" in last.message
 
 
 @pytest.mark.parametrize("row", [0, RINGS - 1])

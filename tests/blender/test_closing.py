@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from made_meshes import (
     GROOVE,
+    GROOVE_EDGES,
     SEGMENTS,
     edge_set,
     edit,
@@ -21,7 +22,6 @@ from made_meshes import (
     set_flag,
 )
 
-GROOVE_EDGES = edge_set(ring(GROOVE))
 QUARTER = rough_loop(GROOVE - 3)[5:16]
 
 

@@ -8,10 +8,9 @@ import bpy
 import numpy as np
 import pytest
 from contour_shapes import add_attributes, edges_by_ends, rough_plate, rough_sphere
-from made_meshes import edit, everything, grooved_cylinder
+from made_meshes import OUTPUTS, edit, everything, grooved_cylinder
 
 CASES, CHUNK = 500, 25
-OUTPUTS = ("SELECT", "SEAM", "SHARP", "CUT", "RIP", "SEPARATE")
 ALONG_EDGES = ("SELECT", "SEAM", "SHARP", "CUT")
 counts = Counter()
 

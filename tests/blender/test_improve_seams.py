@@ -11,13 +11,11 @@ from types import SimpleNamespace
 
 import bpy
 import pytest
-from made_meshes import GROOVE, edge_set, edit, grooved_cylinder, pairs, ring, rough_loop, set_flag
+from made_meshes import GROOVE, START, edge_set, edit, grooved_cylinder, pairs, ring, set_flag
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "blend_samples"))
 README = Path(__file__).resolve().parents[2] / "README.md"
 improve_seams = importlib.import_module("improve_seams")
-
-START = rough_loop(GROOVE - 3)
 
 
 @pytest.fixture

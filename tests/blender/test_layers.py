@@ -9,6 +9,7 @@ from made_meshes import (
     GROOVE,
     RINGS,
     SEGMENTS,
+    START,
     edge_set,
     edit,
     everything,
@@ -18,17 +19,12 @@ from made_meshes import (
     pairs,
     ring,
     rough_loop,
+    run,
     select,
     select_faces_below,
     set_flag,
 )
 from minimum_ratio_contours import api
-
-START = rough_loop(GROOVE - 3)
-
-
-def run(**properties):
-    return bpy.ops.mesh.optimize_contour(**properties)
 
 
 def start(obj, loop=START, mode="EDGE"):
@@ -93,6 +89,31 @@ def test_required_vertices_outside_the_band_are_counted_and_selected(last):
     assert selected_vertices(obj) == set(outside)
     assert bpy.context.tool_settings.mesh_select_mode[:] == (True, False, False)
     assert not flagged(obj, "seam")
+
+
+def test_required_vertices_outside_in_one_object_do_not_keep_the_others(last):
+    """What the report counts as improved is written; and the other object's selection is that of its contour."""
+    bad, sound = grooved_cylinder("Bad"), grooved_cylinder("Sound")
+    outside = ring(0)[3]
+    group(bad, [outside], "Pins")
+    sound.vertex_groups.new(name="Pins")
+    edit(bad, sound)
+    for obj in (bad, sound):
+        select(obj, pairs(START))
+    assert run(required_group="Pins", width=3, output="SEAM") == {"FINISHED"}
+    assert last.message.startswith("1 contour improved")
+    assert not flagged(bad, "seam")
+    assert flagged(sound, "seam") == flagged(sound, "select") == edge_set(ring(GROOVE))
+    assert selected_vertices(bad) == {outside}
+
+
+def test_adjusting_selects_the_required_vertices_outside_too(last):
+    obj = grooved_cylinder()
+    group(obj, [ring(0)[3]], "Pins")
+    start(obj)
+    assert bpy.ops.mesh.adjust_contour(required_group="Pins", width=3) == {"FINISHED"}
+    assert "1 required vertex lies outside" in last.message
+    assert selected_vertices(obj) == {ring(0)[3]}
 
 
 def test_undo_and_redo_with_a_wider_band_find_the_selection_and_its_mode_again():

@@ -6,8 +6,10 @@ import bpy
 import pytest
 from made_meshes import (
     GROOVE,
+    GROOVE_EDGES,
     RINGS,
     SEGMENTS,
+    START,
     edge_set,
     edit,
     everything,
@@ -18,14 +20,12 @@ from made_meshes import (
     pairs,
     ring,
     rough_loop,
+    run,
     select,
     select_faces_below,
     set_flag,
 )
 from minimum_ratio_contours import contours
-
-GROOVE_EDGES = edge_set(ring(GROOVE))
-START = rough_loop(GROOVE - 3)
 
 
 def start(mode="EDGE", loop=START):
@@ -34,10 +34,6 @@ def start(mode="EDGE", loop=START):
     edit(obj, mode=mode)
     select(obj, pairs(loop))
     return obj
-
-
-def run(**properties):
-    return bpy.ops.mesh.optimize_contour(**properties)
 
 
 @pytest.mark.parametrize("mode", ["VERTEX", "EDGE"])

@@ -9,6 +9,8 @@ from made_meshes import (
     GROOVE,
     RINGS,
     SEGMENTS,
+    START,
+    dumbbell,
     edge_set,
     edit,
     everything,
@@ -20,10 +22,10 @@ from made_meshes import (
     rough_loop,
     select,
     set_flag,
+    torus,
+    torus_ring,
 )
 from minimum_ratio_contours import api, mesh_access, native, parameters
-
-START = rough_loop(GROOVE - 3)
 
 
 def start(seams, **more):
@@ -124,6 +126,49 @@ def test_only_the_selected_seams_move():
     assert flagged(obj, "select") == edge_set(ring(GROOVE))
 
 
+@pytest.mark.parametrize("offset", [0.0, 0.1])
+def test_x_mirror_moves_the_seams_on_the_other_side_too(offset, last):
+    obj = dumbbell(offset)
+    obj.data.use_mirror_x = True
+    edit(obj)
+    low, high = rough_loop(4), [(RINGS - 1 - v // SEGMENTS) * SEGMENTS + v % SEGMENTS for v in rough_loop(4)]
+    set_flag(obj, pairs(low) + pairs(high), "seam")
+    select(obj, pairs(low))
+    assert run(selected_only=True) == {"FINISHED"}
+    symmetric = offset == 0
+    assert flagged(obj, "seam") == edge_set(ring(5)) | edge_set(ring(15) if symmetric else high)
+    assert ("X Mirror is on" in last.message) != symmetric
+
+
+def test_x_mirror_of_a_seam_that_ends_in_the_middle(last):
+    """A seam and its image that meet in a junction are symmetric all the same."""
+    obj = dumbbell()
+    obj.data.use_mirror_x = True
+    edit(obj)
+    set_flag(obj, upright(3) + pairs(ring(10)), "seam")
+    select(obj, upright(3, high=10) + pairs(ring(10)))
+    run(selected_only=True)
+    assert "X Mirror" not in last.message
+
+
+def test_an_uneven_scale_is_warned_of(last):
+    obj = start(pairs(START))
+    obj.scale = (1, 1, 2)
+    bpy.context.view_layer.update()
+    run()
+    assert "apply it (Ctrl A > Scale)" in last.message
+
+
+def test_a_mesh_inside_out_is_warned_of(last):
+    obj = torus()
+    edit(obj)
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.flip_normals()
+    set_flag(obj, pairs(torus_ring(0)), "seam")
+    run()
+    assert "Recalculate Outside (Shift N)" in last.message
+
+
 def test_a_part_of_a_seam_selected():
     obj = start(pairs(START))
     part = START[4:20]
@@ -141,7 +186,7 @@ def test_the_selection_without_seams(last):
     select(obj, upright(3, high=4))
     before = everything(obj)
     assert run(selected_only=True) == {"CANCELLED"}
-    assert "Selected Only" in last.message
+    assert last.message.endswith("or clear Selected Only")
     assert everything(obj) == before
 
 
@@ -152,6 +197,7 @@ def test_nothing_to_optimize(seams, last):
     before = everything(obj)
     assert run() == {"CANCELLED"}
     assert last.message.startswith("Nothing to optimize")
+    assert "Selected Only" not in last.message
     assert everything(obj) == before
 
 
@@ -159,8 +205,16 @@ def test_nothing_better(last):
     obj = start(pairs(ring(GROOVE)))
     before = everything(obj)
     assert run() == {"FINISHED"}  # a result, whose settings the redo panel may change
-    assert last.message == "No better place was found for the seams"
+    assert last.message == (
+        "No better place was found for the seams (it is already the best nearby: raise Width or Reach to look farther)"
+    )
     assert everything(obj) == before
+
+
+def test_a_low_sharpest_turn_is_named_where_nothing_better_is_found(last):
+    start(pairs(ring(GROOVE)))
+    run(max_turn=1.0)
+    assert "raise Sharpest Turn" in last.message
 
 
 def test_an_empty_mesh():
@@ -275,6 +329,27 @@ def test_api(mode):
     api.optimize_seams(obj, apply=True)
     mesh_access.synchronize(obj)
     assert seam_set(obj.data) == edge_set(ring(GROOVE))
+
+
+def test_api_on_an_instance_of_what_is_in_edit_mode():
+    """The arrays are those of now, not those of before the edit, and of the shape key that is shown."""
+    obj = grooved_cylinder(depth=0)
+    instance = bpy.data.objects.new("Instance", obj.data)
+    bpy.context.scene.collection.objects.link(instance)
+    obj.shape_key_add(name="Basis")
+    key = obj.shape_key_add(name="Groove")
+    for vertex, point in zip(grooved_cylinder("Shape").data.vertices, key.data):
+        point.co = vertex.co
+    obj.active_shape_key_index = 1
+    edit(obj)
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    bmesh.ops.delete(bm, geom=bm.verts[: 2 * SEGMENTS], context="VERTS")
+    bmesh.update_edit_mesh(obj.data)
+    set_flag(obj, pairs(rough_loop(GROOVE - 5)), "seam")
+    (result,) = api.optimize_seams(instance, apply=True)
+    assert result.status == "improved"
+    assert flagged(obj, "seam") == edge_set(ring(GROOVE - 2))
 
 
 @pytest.mark.parametrize("name", sorted(parameters.SETTINGS.keys() - parameters.NETWORK))

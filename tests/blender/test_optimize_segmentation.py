@@ -215,12 +215,20 @@ def test_one_object_without_labels_is_named_and_the_other_is_done(last):
     assert everything(second) == before
 
 
+def test_what_is_missing_in_all_objects_is_said_once_and_not_of_those_without_faces(last):
+    edit(grooved_cylinder("First"), grooved_cylinder("Second"), mesh_object("Points", [(0, 0, 0)]))
+    assert run("FACE_SETS") == {"CANCELLED"}
+    assert last.message.startswith("Left as it is: there are no face sets")
+    assert last.message.count("face sets") == 1
+    assert "Points" not in last.message
+
+
 def test_a_border_in_its_place_already(last):
     obj = labelled(straight(GROOVE))
     before = everything(obj)
     assert run("MATERIAL") == {"FINISHED"}  # a result, whose settings the redo panel may change
     assert everything(obj) == before
-    assert last.message == "No better place was found for the borders"
+    assert last.message.startswith("No better place was found for the borders (it is already the best nearby")
 
 
 def test_an_empty_mesh():

@@ -8,8 +8,12 @@ import pytest
 from contour_shapes import edges_by_ends
 from made_meshes import (
     GROOVE,
+    GROOVE_EDGES,
+    OUTPUTS,
     RINGS,
     SEGMENTS,
+    START,
+    dumbbell,
     edge_set,
     edit,
     everything,
@@ -19,6 +23,7 @@ from made_meshes import (
     pairs,
     ring,
     rough_loop,
+    run,
     select,
     select_faces_below,
     set_flag,
@@ -27,14 +32,7 @@ from made_meshes import (
 )
 from minimum_ratio_contours import contours
 
-GROOVE_EDGES = edge_set(ring(GROOVE))
-START = rough_loop(GROOVE - 3)
 REFINED = {"refinement": 2, "min_salience": 0.0}
-ALL_OUTPUTS = ["SELECT", "SEAM", "SHARP", "CUT", "RIP", "SEPARATE"]
-
-
-def run(**properties):
-    return bpy.ops.mesh.optimize_contour(**properties)
 
 
 def tilted_cylinder(name="Cylinder"):
@@ -85,7 +83,7 @@ def is_sound(obj):
 # ---- refined contours
 
 
-@pytest.mark.parametrize("output", ALL_OUTPUTS[:4])
+@pytest.mark.parametrize("output", OUTPUTS[:4])
 def test_a_refined_contour_is_cut_into_the_faces(output):
     obj = start(tilted_cylinder)
     faces = len(bm_of(obj).faces)
@@ -99,7 +97,7 @@ def test_a_refined_contour_is_cut_into_the_faces(output):
     assert flagged(obj, "sharp") == (selected if output == "SHARP" else set())
 
 
-@pytest.mark.parametrize("output", ALL_OUTPUTS[:4])
+@pytest.mark.parametrize("output", OUTPUTS[:4])
 def test_a_regular_contour_cuts_nothing(output):
     obj = start(tilted_cylinder)
     before = everything(obj)
@@ -154,7 +152,7 @@ def half_way(row):
     return rough_loop(row)[: SEGMENTS // 2 + 2]
 
 
-@pytest.mark.parametrize("output", ALL_OUTPUTS[:5])
+@pytest.mark.parametrize("output", OUTPUTS[:5])
 def test_an_open_chain_keeps_its_first_and_last_edge(output, last):
     chain = half_way(GROOVE - 1)
     obj = grooved_cylinder()
@@ -458,6 +456,18 @@ def custom_normal(position):
     return (normal / np.linalg.norm(normal)).tolist()
 
 
+def test_what_cannot_be_selected_stays_in_edit_mode():
+    obj, other = with_custom_normals(tilted_cylinder), grooved_cylinder("Other")
+    edit(obj, other)
+    other.hide_select = True
+    was_selected = other.select_get()
+    select(obj, pairs(START))
+    assert run(output="CUT", **REFINED) == {"FINISHED"}
+    assert set(bpy.context.objects_in_mode) == {obj, other}
+    assert other.hide_select
+    assert other.select_get() == was_selected
+
+
 @pytest.mark.parametrize("output", ["CUT", "SEAM", "RIP", "SEPARATE"])
 @pytest.mark.parametrize("settings", [{}, REFINED])
 def test_custom_normals_stay(output, settings):
@@ -552,15 +562,6 @@ def test_an_even_scale_is_not_warned_of(last):
     assert "Scale" not in last.message
 
 
-def dumbbell():
-    """Two grooves, to both sides of x = 0."""
-    obj = grooved_cylinder(grooves=(5, 15))
-    for vertex in obj.data.vertices:
-        x, y, _ = vertex.co
-        vertex.co = (vertex.index // SEGMENTS - 10) * 0.2, x, y
-    return obj
-
-
 @pytest.mark.parametrize("settings", [{}, REFINED])
 @pytest.mark.parametrize("mode", ["EDGE", "FACE"])
 def test_x_mirror_does_the_other_side_too(mode, settings, last):
@@ -630,7 +631,7 @@ def cylinder():
 
 @pytest.mark.parametrize("mode", ["EDGE", "FACE"])
 @pytest.mark.parametrize("normals", [False, True])
-@pytest.mark.parametrize("output", ALL_OUTPUTS[2:])
+@pytest.mark.parametrize("output", OUTPUTS[2:])
 def test_undo_and_redo_of_cuts(output, normals, mode):
     obj = with_custom_normals(tilted_cylinder) if normals else tilted_cylinder()
     edit(obj, mode=mode)

@@ -11,18 +11,17 @@ import pytest
 from made_meshes import (
     GROOVE,
     SEGMENTS,
+    START,
     edit,
     flagged,
     grooved_cylinder,
     pairs,
     ring,
-    rough_loop,
     select,
     set_flag,
 )
 from minimum_ratio_contours import menus, panels, parameters, preferences, presets, segmentation
 
-START = rough_loop(GROOVE - 3)
 WINDOW_ONLY = "mesh.show_curvature_directions"  # the tests of the window run it
 
 
@@ -57,8 +56,8 @@ def own():
     bpy.ops.mesh.contour_defaults()
 
 
-def remembered():
-    return bpy.context.window_manager.operator_properties_last(panels.OPERATOR)
+def remembered(operator=panels.OPERATOR):
+    return bpy.context.window_manager.operator_properties_last(operator)
 
 
 def ready_for_all():
@@ -196,6 +195,30 @@ def test_a_preference_takes_effect_at_once_and_scripts_do_not_feel_it(own):
     assert not flagged(obj, "seam")
     bpy.ops.mesh.contour_defaults()
     assert (remembered().output, remembered().width) == ("SELECT", parameters.SETTINGS["width"]["default"])
+
+
+@pytest.mark.parametrize("operator", panels.NETWORK_OPERATORS)
+def test_preferences_reach_networks_too(operator, own):
+    own.width, own.merge = 3, 0.25
+    properties = remembered(operator)
+    assert (properties.width, properties.merge) == (3, 0.25)
+
+
+def test_a_preference_leaves_the_other_settings_of_the_sidebar(own):
+    remembered().width, remembered().output = 20, "RIP"
+    own.anchor = 1.0
+    assert (remembered().width, remembered().output, remembered().anchor) == (20, "RIP", 1.0)
+
+
+def test_the_buttons_for_networks_take_what_they_share_with_the_sidebar():
+    """All that the panels above show and the operator has."""
+    obj = grooved_cylinder()
+    edit(obj)
+    layout = MagicMock()
+    button = layout.operator.return_value = SimpleNamespace()
+    panels.VIEW3D_PT_minimum_ratio_contours_networks.draw(SimpleNamespace(layout=layout), bpy.context)
+    own, others = ({*remembered(name).bl_rna.properties.keys()} for name in (panels.OPERATOR, "mesh.optimize_seams"))
+    assert vars(button).keys() == own & others - {"rna_type"}
 
 
 def test_a_new_session_starts_from_the_preferences(own):

@@ -14,6 +14,9 @@ from conftest import surface_of
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 networks = importlib.import_module("addon.networks")
+topology_module = importlib.import_module("addon.topology")
+chains_module = importlib.import_module("addon.chains")
+settlement_module = importlib.import_module("addon.settlement")
 contours = importlib.import_module("addon.contours")
 
 
@@ -25,7 +28,9 @@ def topology_of(mesh, hidden_faces=()):
     number = {tuple(sorted(pair)): i for i, pair in enumerate(edges.tolist())}
     corner_edges = np.array([number[tuple(sorted(pair))] for pair in corners])
     offsets = mesh.face_offsets
-    return networks.make_topology(edges, offsets, np.array([a for a, _ in corners]), corner_edges, list(hidden_faces))
+    return topology_module.make_topology(
+        edges, offsets, np.array([a for a, _ in corners]), corner_edges, list(hidden_faces)
+    )
 
 
 def centres(mesh):
@@ -103,17 +108,17 @@ def chain_pairs(chain):
 @networks_of_labels
 def test_every_border_edge_is_in_exactly_one_chain(mesh, labels, hidden):
     topology = topology_of(mesh, hidden)
-    borders = networks.label_borders(topology, labels)
+    borders = topology_module.label_borders(topology, labels)
     expected = expected_borders(mesh, labels, hidden)
     assert set(as_pairs(topology.edges[borders])) == expected
-    pairs = [pair for chain in networks.find_chains(topology, borders) for pair in chain_pairs(chain)]
+    pairs = [pair for chain in chains_module.find_chains(topology, borders) for pair in chain_pairs(chain)]
     assert sorted(pairs) == sorted(expected)
 
 
 @networks_of_labels
 def test_chains_meet_in_junctions_and_on_borders_only(mesh, labels, hidden):
     topology = topology_of(mesh, hidden)
-    chains = networks.find_chains(topology, networks.label_borders(topology, labels))
+    chains = chains_module.find_chains(topology, topology_module.label_borders(topology, labels))
     degrees = Counter(v for pair in expected_borders(mesh, labels, hidden) for v in pair)
     shown = {pair: [f for f in faces if f not in set(hidden)] for pair, faces in edge_faces(mesh).items()}
     border = {v for pair, faces in shown.items() if len(faces) == 1 for v in pair}
@@ -133,9 +138,9 @@ def test_each_side_of_a_chain_has_one_label(mesh, labels, hidden):
     """Left and right by the faces' own winding."""
     topology = topology_of(mesh, hidden)
     left_face = {pair: i for i, face in enumerate(mesh.faces) for pair in zip(face, face[1:] + face[:1])}
-    for chain in networks.find_chains(topology, networks.label_borders(topology, labels)):
+    for chain in chains_module.find_chains(topology, topology_module.label_borders(topology, labels)):
         pairs = [tuple(pair) for pair in contours.contour_edges(chain.vertices, chain.closed).tolist()]
-        line = networks._lines(topology, [chain.vertices], [chain.closed])[0]
+        line = settlement_module._lines(topology, [chain.vertices], [chain.closed])[0]
         assert line.left.tolist() == [left_face[pair] for pair in pairs]
         assert line.right.tolist() == [left_face[pair[::-1]] for pair in pairs]
         assert len(set(labels[line.left])) == len(set(labels[line.right])) == 1
@@ -145,11 +150,13 @@ def test_chains_do_not_depend_on_the_order_of_the_edges():
     _, mesh, labels, _ = CASES[1]
     topology = topology_of(mesh)
     order = np.random.default_rng(0).permutation(len(topology.edges))
-    shuffled = networks.Topology(
+    shuffled = topology_module.Topology(
         *(getattr(topology, name)[order] for name in ("edges", "left", "right", "inner", "hidden")),
         topology.face_count,
     )
-    one, other = (networks.find_chains(each, networks.label_borders(each, labels)) for each in (topology, shuffled))
+    one, other = (
+        chains_module.find_chains(each, topology_module.label_borders(each, labels)) for each in (topology, shuffled)
+    )
     assert Counter(frozenset(chain_pairs(chain)) for chain in one) == Counter(
         frozenset(chain_pairs(chain)) for chain in other
     )
@@ -161,7 +168,7 @@ def test_chosen_edges_are_chains_of_their_own():
     marked, chosen = np.zeros((2, len(topology.edges)), dtype=bool)
     marked[topology.find(contours.contour_edges(ring))[0]] = True
     chosen[topology.find(contours.contour_edges(ring[3:8], closed=False))[0]] = True
-    moving, staying = sorted(networks.find_chains(topology, marked, chosen), key=lambda chain: not chain.chosen)
+    moving, staying = sorted(chains_module.find_chains(topology, marked, chosen), key=lambda chain: not chain.chosen)
     assert set(moving.vertices) == set(ring[3:8])
     assert set(staying.vertices) == set(ring) - set(ring[4:7])
     assert (moving.chosen, staying.chosen) == (True, False)
@@ -173,7 +180,7 @@ def test_a_loop_at_a_junction_keeps_it():
     marked = np.zeros(len(topology.edges), dtype=bool)
     marked[topology.find(contours.contour_edges(ring))[0]] = True
     marked[topology.find([(ring[5], ring[5] + 12), (ring[5] + 12, ring[5] + 24)])[0]] = True
-    loop, tail = sorted(networks.find_chains(topology, marked), key=lambda chain: not chain.closed)
+    loop, tail = sorted(chains_module.find_chains(topology, marked), key=lambda chain: not chain.closed)
     assert (loop.closed, loop.required, loop.vertices[0]) == (True, (ring[5],), ring[5])
     assert tail.vertices.tolist() in ([ring[5], ring[5] + 12, ring[5] + 24], [ring[5] + 24, ring[5] + 12, ring[5]])
 
@@ -184,7 +191,7 @@ def test_a_loop_at_a_junction_keeps_it():
 @networks_of_labels
 def test_regions_are_the_connected_pieces_of_labels(mesh, labels, hidden):
     topology = topology_of(mesh, hidden)
-    found = networks.regions(topology, networks.label_borders(topology, labels))
+    found = topology_module.regions(topology, topology_module.label_borders(topology, labels))
     around = {}
     for faces in edge_faces(mesh).values():
         if len(faces) == 2 and not set(faces) & set(hidden) and labels[faces[0]] == labels[faces[1]]:
@@ -204,10 +211,10 @@ def test_regions_are_the_connected_pieces_of_labels(mesh, labels, hidden):
 @networks_of_labels
 def test_nothing_moves_nothing_changes(mesh, labels, hidden):
     topology = topology_of(mesh, hidden)
-    borders = networks.label_borders(topology, labels)
-    chains = networks.find_chains(topology, borders)
+    borders = topology_module.label_borders(topology, labels)
+    chains = chains_module.find_chains(topology, borders)
     for paths in ([None] * len(chains), [chain.vertices for chain in chains]):
-        settlement = networks.settle(topology, borders, chains, paths)
+        settlement = settlement_module.settle(topology, borders, chains, paths)
         assert settlement.lost == {}
         assert (labels[settlement.after] == labels).all()
 
@@ -218,7 +225,7 @@ def test_nothing_moves_nothing_changes(mesh, labels, hidden):
 def optimize(mesh, topology, marked, chosen=None, **settings):
     return networks.optimize(
         surface_of(mesh, hidden_faces=np.flatnonzero(hidden_mask(topology))),
-        networks.make_network(topology, marked, chosen),
+        chains_module.make_network(topology, marked, chosen),
         **{"width": 3, "min_salience": 0.0} | settings,
     )
 
@@ -232,7 +239,7 @@ def hidden_mask(topology):
 
 def piece_labels(topology, labels):
     """For each label, in how many connected pieces it lies."""
-    roots = np.unique(networks.regions(topology, networks.label_borders(topology, labels)))
+    roots = np.unique(topology_module.regions(topology, topology_module.label_borders(topology, labels)))
     return Counter(labels[roots].tolist())
 
 
@@ -241,7 +248,7 @@ def piece_labels(topology, labels):
 def test_labels_follow_the_borders(mesh, labels, hidden):
     """The borders of the new labels are the new contours; every label keeps its pieces; what is hidden stays."""
     topology = topology_of(mesh, hidden)
-    plan = optimize(mesh, topology, networks.label_borders(topology, labels))
+    plan = optimize(mesh, topology, topology_module.label_borders(topology, labels))
     new = labels[plan.settlement.after]
     lines = [
         getattr(result, "vertices", None) if taken else chain.vertices
@@ -264,7 +271,7 @@ def test_most_of_them_move_and_few_are_refused():
     moved = lost = total = problems = 0
     for _, mesh, labels, hidden in CASES[:8]:
         topology = topology_of(mesh, hidden)
-        plan = optimize(mesh, topology, networks.label_borders(topology, labels))
+        plan = optimize(mesh, topology, topology_module.label_borders(topology, labels))
         movable = [chain.movable for chain in plan.chains]
         total += sum(movable)
         moved += sum(plan.settlement.taken)
@@ -280,8 +287,8 @@ def two_columns():
     topology = topology_of(mesh)
     column = np.arange(50) % 10
     labels = (column >= 3).astype(int) + (column >= 6)
-    borders = networks.label_borders(topology, labels)
-    return topology, labels, borders, networks.find_chains(topology, borders)
+    borders = topology_module.label_borders(topology, labels)
+    return topology, labels, borders, chains_module.find_chains(topology, borders)
 
 
 def line_at(column):
@@ -298,7 +305,7 @@ def settle(lines):
         p if p is None or p[0] < chain.vertices[-1] and chain.vertices[0] < 11 else p[::-1]
         for p, chain in zip(paths, chains)
     ]
-    settlement = networks.settle(topology, borders, chains, paths)
+    settlement = settlement_module.settle(topology, borders, chains, paths)
     taken = {int(chain.vertices[0] % 11): t for chain, t in zip(chains, settlement.taken)}
     return taken, settlement.lost, labels[settlement.after].reshape(5, 10)
 
@@ -335,7 +342,7 @@ def test_only_the_line_that_tears_a_region_stays():
     topology, labels, borders, chains = two_columns()
     bent = np.array([3, 14, 25, 26, 15, 4, 5, 16, 27, 38, 49, 60])
     paths = [bent if chain.vertices[0] % 11 == 3 else line_at(7) for chain in chains]
-    settlement = networks.settle(topology, borders, chains, paths)
+    settlement = settlement_module.settle(topology, borders, chains, paths)
     assert settlement.taken == [bool(chain.vertices[0] % 11 != 3) for chain in chains]
     assert (labels[settlement.after].reshape(5, 10) == [0, 0, 0, 1, 1, 1, 1, 2, 2, 2]).all()
 
@@ -344,7 +351,7 @@ def test_a_line_that_would_join_regions_stays():
     """The line at column 3 would end on the sheet."""
     topology, labels, borders, chains = two_columns()
     paths = [line_at(3)[:4] if chain.vertices[0] % 11 == 3 else None for chain in chains]
-    settlement = networks.settle(topology, borders, chains, paths)
+    settlement = settlement_module.settle(topology, borders, chains, paths)
     assert not any(settlement.taken)
     assert list(settlement.lost.values()) == [-1]
     assert (labels[settlement.after] == labels).all()
@@ -373,7 +380,7 @@ def test_an_end_slides_unless_hidden_faces_are_beside_it(faces, hidden, end):
     hidden = [len(places) if faces else face for face in hidden]
     labels = (centres(mesh)[:, 0] >= 6).astype(int)
     topology = topology_of(mesh, hidden)
-    plan = optimize(mesh, topology, networks.label_borders(topology, labels), width=4, anchor=0.0)
+    plan = optimize(mesh, topology, topology_module.label_borders(topology, labels), width=4, anchor=0.0)
     assert plan.changed
     assert taken_ends(plan)[0] == end
 
@@ -383,7 +390,7 @@ def three_strips():
     mesh = meshes.polygon_mesh(*open_sheet(8, 16))
     column = np.arange(7 * 15) % 15
     topology = topology_of(mesh)
-    return mesh, topology, networks.label_borders(topology, (column >= 6).astype(int) + (column >= 12))
+    return mesh, topology, topology_module.label_borders(topology, (column >= 6).astype(int) + (column >= 12))
 
 
 def test_seams_along_the_border_of_the_mesh_change_nothing():
@@ -450,7 +457,7 @@ def test_contours_at_vertices_that_are_not_manifold_are_named():
 def test_a_network_of_single_edges_needs_no_surface():
     mesh = meshes.polygon_mesh(*open_sheet(3, 3))
     topology = topology_of(mesh)
-    borders = networks.label_borders(topology, np.array([0, 1, 2, 3]))
-    plan = networks.optimize(None, networks.make_network(topology, borders))
+    borders = topology_module.label_borders(topology, np.array([0, 1, 2, 3]))
+    plan = networks.optimize(None, chains_module.make_network(topology, borders))
     assert not plan.changed
     assert (len(plan.old_edges()), len(plan.new_edges())) == (0, 0)

@@ -30,6 +30,7 @@ def left(problem, place="Hand"):
 
 
 STAYED = done("unchanged", -2, -2, "cancelled")
+BEST = done("unchanged", -2, -2, "already_best")
 
 
 @pytest.mark.parametrize(
@@ -43,6 +44,10 @@ STAYED = done("unchanged", -2, -2, "cancelled")
         (
             [done(), left("it branches", "Foot"), left("it is open")],
             "1 contour improved. Ratio 0.5 to -1. Left as it is: Foot: it branches; Hand: it is open",
+        ),
+        (
+            [left("it is open"), left("it is open", "Foot"), left("it branches")],
+            "Left as it is: it is open; Hand: it branches",
         ),
         ([left(word) for word in "abcde"], "Left as it is: a; b; c and 2 more"),
     ],
@@ -76,6 +81,13 @@ def test_words_name_settings_as_the_panel_shows_them():
 
 def large_torus():
     return meshes.torus(160, 400)
+
+
+@pytest.mark.parametrize(("outcome", "turn", "noted"), [(BEST, 0.5, True), (BEST, 3.0, False), (done(), 0.5, False)])
+def test_a_turn_below_the_default_is_named_where_nothing_better_is_found(outcome, turn, noted):
+    assert report.turn_notes([outcome], {"max_turn": turn}) == [report.TURN_LESS] * noted
+    default = np.float32(parameters.SETTINGS["max_turn"]["default"])
+    assert report.turn_notes([outcome], {"max_turn": default}) == []
 
 
 def test_native_errors_are_put_into_the_panels_words():
@@ -114,9 +126,10 @@ TORN = "a border whose move would join or split regions"
     ("outcomes", "expected"),
     [
         ([done(), STAYED, done()], "2 of 3 seams moved. Mean ratio -0.3333 to -1.333"),
-        ([STAYED, STAYED], "No better place was found for the seams"),
+        ([STAYED, STAYED], "No better place was found for the seams (cancelled)"),
+        ([STAYED, BEST], "No better place was found for the seams"),
         ([done(), left(TORN), left(TORN)], f"1 of 3 seams moved. Ratio 0.5 to -1. Left as it is: {TORN}"),
-        ([STAYED, left("no", "Foot")], "No better place was found for the seams. Left as it is: Foot: no"),
+        ([STAYED, left("no", "Foot")], "No better place was found for the seams (cancelled). Left as it is: Foot: no"),
         ([left("there are no face sets")], "Left as it is: there are no face sets"),
     ],
 )
