@@ -14,8 +14,9 @@
 namespace mrc_python {
 
 namespace py = pybind11;
-using Integers = py::array_t<int32_t, py::array::c_style>;
-using Doubles = py::array_t<double, py::array::c_style>;
+constexpr int readable = +py::array::c_style | +py::detail::npy_api::NPY_ARRAY_ALIGNED_;  // as C++ reads arrays
+using Integers = py::array_t<int32_t, readable>;
+using Doubles = py::array_t<double, readable>;
 using Iterable = py::typing::Iterable<py::object>;
 using Dict = py::typing::Dict<py::str, py::object>;
 
@@ -30,7 +31,7 @@ Doubles doubles(const py::object& values, const char* name);
 void require_shape(const py::array& array, py::ssize_t columns, const char* name);
 
 template <class T>
-std::span<const T> view(const py::array_t<T, py::array::c_style>& array) {
+std::span<const T> view(const py::array_t<T, readable>& array) {
     return {array.data(), static_cast<std::size_t>(array.size())};
 }
 
