@@ -50,7 +50,9 @@ Vec3 place(Shape shape, double row, double column, double radius) {
 MadeMesh grid_mesh(FuzzedDataProvider& data) {
     const auto shape = data.ConsumeEnum<Shape>();
     const bool wrap_columns = shape != Shape::plane, wrap_rows = shape == Shape::torus;
-    const int columns = data.ConsumeIntegralInRange(3, 16), rows = data.ConsumeIntegralInRange(2, 180 / columns);
+    const int quads = data.PickValueInArray({24, 24, 48, 48, 96, 180});  // small ones break as well, and sooner
+    const int columns = data.ConsumeIntegralInRange(3, std::min(16, quads / 4));
+    const int rows = data.ConsumeIntegralInRange(2, quads / columns);
     const Grid grid{rows, columns, wrap_rows, wrap_columns, shape == Shape::twisted};
     MadeMesh mesh;
     std::mt19937 random(data.ConsumeIntegral<uint16_t>());
