@@ -31,8 +31,9 @@ struct Tube {
         std::vector<double> positions;
         std::vector<int32_t> offsets{0}, corners;
         for (int v = 0; v < rows * columns; ++v) {
+            const int row = v / columns;
             const double angle = 2.0 * std::numbers::pi * (v % columns) / columns;
-            for (const double x : {std::cos(angle), std::sin(angle), 0.25 * (v / columns)}) {
+            for (const double x : {std::cos(angle), std::sin(angle), 0.25 * row}) {
                 positions.push_back(x + noise * shift(random));
             }
         }
