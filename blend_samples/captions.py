@@ -4,15 +4,16 @@
 import bpy
 from images import link, material, render, workbench
 
-LINE, PAD = 30, 8  # pixels
+LINE, SMALL_LINE, PAD = 30, 23, 8  # pixels
 
 
-def strip(width, words):
+def strip(width, words, spacing=LINE):
     """Words are (line from the top, pixels from the left, text, colour); gives rows of pixels, from the bottom.
+    `spacing`: from line to line, in pixels; the letters go with it.
 
     Words too long for their room, up to the next on their line or to the border, are made smaller.
     """
-    height = LINE * (1 + max(line for line, *_ in words)) + 12
+    height = spacing * (1 + max(line for line, *_ in words)) + 12
     scene = bpy.data.scenes.new("words")
     workbench(scene, width, height)
     scene.display.shading.light = "FLAT"
@@ -22,10 +23,10 @@ def strip(width, words):
     scene.camera = camera
     for line, left, text, colour in words:
         data = bpy.data.curves.new("words", "FONT")
-        data.body, data.size = text, 0.95 * LINE
+        data.body, data.size = text, 0.95 * spacing
         data.materials.append(material("words", colour))
         placed = link(scene, "words", data)
-        placed.location = (left, height - LINE * (line + 0.95), 0)
+        placed.location = (left, height - spacing * (line + 0.95), 0)
         scene.view_layers[0].update()  # for the dimensions
         room = min([other for at, other, *_ in words if at == line and other > left], default=width) - left - PAD
         placed.scale *= min(1.0, room / placed.dimensions.x)

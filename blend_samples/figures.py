@@ -168,7 +168,7 @@ def thumb():
     given = grid_path(at[3] + 3 + np.round(0.9 * np.sin(np.arange(columns))).astype(int), columns)
     settled = {"regular_iterations": 3, "refinement": 2}
     searches = tuple(Search(f"width {width}", given, {"width": width, **settled}) for width in (4, 9))
-    title = "A wider band finds the stronger of two rings at a thumb"
+    title = "A wider band finds the deeper of two known rings (black)"
     return Figure("5.3", title, positions, tuple(faces), searches, (shallow, deep))
 
 

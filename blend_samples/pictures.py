@@ -4,6 +4,7 @@ where one is known by construction, the contour that ought to be found black; ve
 
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from textwrap import wrap
 
 import blender_meshes
 import bmesh
@@ -78,14 +79,24 @@ def _legend(comparison):
 
 def overview_pair(ob, up, comparison, size=OVERVIEW_SIZE):
     """A comparison as a small picture; several are put together by `draw_overview`."""
-    right = size + GAP
     with scratch():
         halves = joined(_halves(ob, up, comparison, size, OVERVIEW_MARGIN), axis=1)
-        words = [(0, 4, comparison.heading or comparison.title, BLACK)]
-        if not comparison.heading:
-            words += [(0, right, "green: faces searched", DARK_GREEN)]
-        words += [(1, 4, comparison.before, ORANGE), (1, right, comparison.after, BLUE)]
-        return np.concatenate([halves, captions.strip(halves.shape[1], words)])
+        words, spacing = _small_title(comparison, size + GAP), captions.LINE
+        if comparison.heading:
+            words, spacing = _two_lines(comparison.heading), captions.SMALL_LINE
+        below = 1 + max(line for line, *_ in words)
+        words += [(below, 4, comparison.before, ORANGE), (below, size + GAP, comparison.after, BLUE)]
+        return np.concatenate([halves, captions.strip(halves.shape[1], words, spacing)])
+
+
+def _small_title(comparison, right):
+    return [(0, 4, comparison.title, BLACK), (0, right, "green: faces searched", DARK_GREEN)]
+
+
+def _two_lines(heading):
+    """Both about as long, so that every heading can have letters of one size."""
+    least = next(width for width in range(len(heading) // 2, len(heading)) if len(wrap(heading, width)) == 2)
+    return [(line, 4, words, BLACK) for line, words in enumerate(wrap(heading, least))]
 
 
 def draw_sheet(path, drawn):
@@ -105,8 +116,10 @@ def draw_overview(path, pairs, columns=2, shades=SHADES):
     blank = np.broadcast_to(np.float32(images.PAPER), pairs[0].shape)
     filled = pairs + [blank] * (-len(pairs) % columns)
     rows = [joined(filled[i : i + columns], axis=1) for i in range(0, len(filled), columns)]
+    margin = np.broadcast_to(np.float32(images.PAPER), (GAP, *rows[0].shape[1:]))  # words keep off the row above
+    whole = np.concatenate([piece for row in reversed(rows) for piece in (row, margin)])
     with scratch():
-        images.save(np.round(np.concatenate(rows[::-1]) * shades) / shades, path)
+        images.save(np.round(whole * shades) / shades, path)
 
 
 def joined(parts, axis):

@@ -45,7 +45,7 @@ OVERVIEW = {  # the samples in the README's picture, with what is said of each
     "hand": ("Five fingers", *WORDS),
     "bear.off": ("Bear: ear, arm, neck", *WORDS),
     "armadillo.off": ("Scan: ear, arm, knee, tail", *WORDS),
-    "suzanne": ("Suzanne: ear, muzzle", *WORDS),
+    "head": ("Head: nose, ear, neck", *WORDS),
 }
 
 
