@@ -1,17 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The gallery's jobs do what its page says, in this Blender; only the pictures are left out."""
+"""The gallery's jobs and files do what its page says, in this Blender; only the pictures are left out."""
 
 import importlib
 import sys
 from pathlib import Path
 
+import bpy
+import numpy as np
 import pytest
 from minimum_ratio_contours import api
+from minimum_ratio_contours.parameters import preset_values
 
 SAMPLES = Path(__file__).resolve().parents[2] / "blend_samples"
 sys.path.insert(0, str(SAMPLES))
+blender_meshes = importlib.import_module("blender_meshes")
 gallery = importlib.import_module("gallery")
 report = importlib.import_module("report")
+FAR = preset_values("FAR")
 
 
 @pytest.mark.parametrize(
@@ -31,3 +36,56 @@ def test_every_job_is_tested_and_on_the_page():
     page = (SAMPLES / "README.md").read_text(encoding="utf-8")
     assert set(gallery.JOBS) == {"character_seams", "character_printed", "hand_segmentation"}
     assert all(f"(pictures/{job}.png)" in page for job in gallery.JOBS)
+
+
+def test_the_page_links_every_file_and_all_but_one_have_their_loops_selected():
+    page = (SAMPLES / "README.md").read_text(encoding="utf-8")
+    files = sorted(SAMPLES.glob("*.blend"))
+    assert [path.name for path in files if f"]({path.name})" not in page] == []
+    assert [path.stem for path in files if not has_selection(path)] == ["hand_parts"]
+
+
+def has_selection(path):
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    return any(edge.select for edge in bpy.context.view_layer.objects.active.data.edges)
+
+
+@pytest.mark.parametrize(
+    ("sample", "settings", "stay"),
+    [
+        ("hand", {}, {"index", "middle", "ring", "little", "thumb"}),
+        ("hand", FAR, {"middle"}),
+        ("hand", FAR | {"reach": 1.0}, set()),
+        ("head", {}, {"ear", "neck"}),
+        ("head", FAR, set()),
+        ("torso", {}, {"waist"}),
+        ("torso", FAR, set()),
+    ],
+)
+def test_what_a_modeler_gets_from_the_selected_loops_is_what_the_page_says(sample, settings, stay):
+    """The loops named are not where the pictures have them, but stay or stop on the way."""
+    bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / f"{sample}.blend"))
+    ob = bpy.context.view_layer.objects.active
+    pictured = {name: pictured_contour(ob, name) for name in blender_meshes.stored_loops(ob.data, blender_meshes.ROUGH)}
+    bpy.ops.object.mode_set(mode="EDIT")
+    assert bpy.ops.mesh.optimize_contour(**settings) == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    found = positions(ob)[[vertex.index for vertex in ob.data.vertices if vertex.select]]
+    near = 2 * blender_meshes.mean_edge_length(ob.data)
+    assert {name for name, points in pictured.items() if mean_gap(points, found) > near} == stay
+
+
+def pictured_contour(ob, name):
+    """With the settings stored for the loop, as in the pictures."""
+    stored = ob.get(blender_meshes.SETTINGS + name)
+    loop = blender_meshes.stored_loops(ob.data, blender_meshes.ROUGH)[name]
+    return positions(ob)[list(api.optimize_contour(ob, loop, **(stored.to_dict() if stored else {})).vertices)]
+
+
+def positions(ob):
+    return blender_meshes.read(ob.data.vertices, "co", 3, np.float32)
+
+
+def mean_gap(points, others):
+    """From each of the points to the nearest of the others."""
+    return np.linalg.norm(points[:, None] - others[None], axis=2).min(axis=1).mean()
