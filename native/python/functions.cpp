@@ -58,7 +58,7 @@ mrc::Measure measure(const Surface& surface, const py::object& vertices, bool cl
     return mrc::measure(surface, contour, options, wishes, address(scales));
 }
 
-py::object close_contour(const Surface& surface, const py::object& vertices, const py::object& progress) {
+py::typing::Optional<Integers> close_contour(const Surface& surface, const py::object& vertices, const py::object& progress) {
     const mrc::Contour chain = to_contour(vertices, false, py::none(), py::none());
     const mrc::Progress report = to_progress(progress);
     mrc::Contour loop;
@@ -212,7 +212,7 @@ Dict search_space(const Surface& surface, const py::object& vertices, bool close
 }  // namespace
 
 void bind_functions(py::module_& module) {
-    const Options defaults;
+    const auto defaults = py::arg_v("options", Options(), "Options()");  // all of them would fill each signature
     py::class_<PyCurvature>(module, "Curvature", "Principal curvatures over all vertices, positive where convex (3.4).")
         .def_readonly("kappa_min", &PyCurvature::kappa_min, "(V,) float64, one over the unit of length.")
         .def_readonly("kappa_max", &PyCurvature::kappa_max, "(V,) float64, one over the unit of length.")
@@ -220,31 +220,33 @@ void bind_functions(py::module_& module) {
         .def_readonly("direction_max", &PyCurvature::direction_max, "(V, 3) float64, unit tangents; they run along valleys.");
     const py::tuple nothing;
     module.def(
-        "optimize", &optimize, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true,
-        py::arg("options") = defaults, py::arg("required_vertices") = nothing, py::arg("required_edges") = nothing,
-        py::arg("attractors") = nothing, py::arg("barriers") = nothing, py::arg("region_density") = py::none(),
-        py::arg("scales") = py::none(), py::arg("progress") = py::none(), py::arg("edge_vertices") = py::none(),
-        py::arg("edge_parameters") = py::none(),
+        "optimize", &optimize, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true, defaults,
+        py::arg("required_vertices") = nothing, py::arg("required_edges") = nothing, py::arg("attractors") = nothing,
+        py::arg("barriers") = nothing, py::arg("region_density") = py::none(), py::arg("scales") = py::none(),
+        py::arg("progress") = py::none(), py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
         "Moves a contour to the one of least ratio in a band around it (Clements 2006, chapter 4).\n\n"
         "surface: a Surface; closed: a loop, or an open curve; options: an Options.\n"
-        "vertices: (N,) ids in order along real edges; a closed contour does not repeat its first; or an earlier Result.\n"
+        "vertices: (N,) ids (whole numbers) in order along real edges; a closed contour does not repeat its first; or an earlier\n"
+        "Result, which brings its own closed.\n"
         "edge_vertices, edge_parameters: (N, 2) and (N,), a contour across faces: point i lies at (1 - t) a + t b.\n"
         "required_vertices, required_edges: ids and (n, 2) vertex pairs that the contour must hold (4.4).\n"
         "attractors: (vertex, radius, strength) or (vertex, radius, strength, sigma), soft constraints (4.5): radius and sigma in\n"
         "the mesh's unit, sigma half the radius where it is not given; strength in K, below 0 it pushes off.\n"
-        "barriers: (n, 2) vertex pairs, edges that no contour crosses.\n"
+        "barriers: (n, 2) vertex pairs, edges that no contour crosses, the given one neither.\n"
         "region_density: (F,) float64 per area, closed contours: with the option region_weight its change on the side region_side\n"
         "weighs (6.1.2).\n"
         "scales: those of an earlier result, to go on from it.\n"
         "progress: called with the share done, from 0 to 1, three phases an iteration, and in long phases again every few\n"
         "milliseconds; returning False cancels, an exception passes through.\n"
-        "Returns a Result. Raises ValueError naming the elements where the contour is not simple or not inside the mesh, and\n"
-        "Infeasible, a ValueError, where no contour of the band has all required elements.");
+        "Returns a Result. Raises ValueError naming the elements where the contour is not simple, not inside the mesh or crosses "
+        "a\n"
+        "barrier; of these Infeasible, where no contour of the band has all required elements, and TooLarge, where the search\n"
+        "would take more memory than there is. Ids that are no whole numbers are a TypeError.");
     module.def(
-        "optimize_all", &optimize_all, py::arg("surface"), py::arg("contours"), py::arg("closed") = true,
-        py::arg("options") = defaults, py::arg("required_vertices") = nothing, py::arg("required_edges") = nothing,
-        py::arg("attractors") = nothing, py::arg("barriers") = nothing, py::arg("region_density") = py::none(),
-        py::arg("scales") = py::none(), py::arg("progress") = py::none(),
+        "optimize_all", &optimize_all, py::arg("surface"), py::arg("contours"), py::arg("closed") = true, defaults,
+        py::arg("required_vertices") = nothing, py::arg("required_edges") = nothing, py::arg("attractors") = nothing,
+        py::arg("barriers") = nothing, py::arg("region_density") = py::none(), py::arg("scales") = py::none(),
+        py::arg("progress") = py::none(),
         "Optimizes several contours of one surface, in parallel; they never cross or touch where the given ones did not (1.4).\n\n"
         "contours: a sequence, each as (N,) vertex ids, as a tuple of edge_vertices (N, 2) and edge_parameters (N,), or an\n"
         "earlier Result.\n"
@@ -255,9 +257,9 @@ void bind_functions(py::module_& module) {
         "Returns a list of Results; held_back_by says which other contours kept one's band from growing. Raises what optimize\n"
         "raises, naming the contour by its place in the list.");
     module.def(
-        "measure", &measure, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true,
-        py::arg("options") = defaults, py::arg("attractors") = nothing, py::arg("region_density") = py::none(),
-        py::arg("scales") = py::none(), py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
+        "measure", &measure, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true, defaults,
+        py::arg("attractors") = nothing, py::arg("region_density") = py::none(), py::arg("scales") = py::none(),
+        py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
         "The ratio of a contour, without optimising (eq. 3.3). Arguments and errors are those of optimize; returns a Measure.");
     module.def(
         "close_contour", &close_contour, py::arg("surface"), py::arg("vertices"), py::arg("progress") = py::none(),
@@ -270,20 +272,25 @@ void bind_functions(py::module_& module) {
         "the surface is far from the chain and faces away from it (Lee et al. 2004). Give it to optimize. Raises ValueError\n"
         "where nothing leads round, as on a plane.");
     module.def(
-        "curvature", &curvature, py::arg("surface"), py::arg("options") = defaults, py::arg("scales") = py::none(),
+        "curvature", &curvature, py::arg("surface"), defaults, py::arg("scales") = py::none(),
         "The curvatures at all vertices (3.4), a Curvature; without scales, h is the surface's mean edge length. Of the options\n"
         "it reads curvature_radius and curvature_smoothing.");
     module.def(
-        "band", &band, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true,
-        py::arg("options") = defaults, py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
+        "band", &band, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true, defaults,
+        py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
         "(n,) int32: the faces that optimize searches first, ascending (4.2.1). Arguments and errors are those of optimize.");
-    module.def("search_space", &search_space, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true,
-               py::arg("options") = defaults, py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
-               "All that one search with these width and refinement builds, as a dict of arrays: for display and tests.\n"
-               "Arguments and errors are those of optimize.\n\n"
-               "faces, vertices, side, round, left, right, strips, triangles: the band. edges, increments, diagonal: the flow.\n"
-               "points, parameters, nodes, arcs, f, g, cut, level: the graph, nodes as pairs of vertices (refined: of points) in "
-               "topological order.");
+    module.def(
+        "search_space", &search_space, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true, defaults,
+        py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
+        "All that one search with these width and refinement builds, as a dict of arrays: for display and tests.\n"
+        "Arguments and errors are those of optimize. Vertices are ids of the surface, indices int32, numbers float64.\n\n"
+        "The band: faces (n,); vertices (n,) with side (n,), 1 left, -1 right, 0 on the contour, and round (n,), the dilation\n"
+        "that reached each; left, right and strips: lists of (m,) vertices, the boundary after each round on either side, and\n"
+        "all from right to left; triangles (n, 3).\n"
+        "The flow: edges (n, 2) with increments (n,), from the first vertex to the second, and diagonal (n,) bool.\n"
+        "The graph: points (n, 2) with parameters (n,), as Result.edge_vertices; nodes (n, 2) in topological order, as pairs\n"
+        "of vertices (refined: of rows of points); arcs (n, 2), rows of nodes, with f and g (n,); cut (n,), the nodes that\n"
+        "cross the flow's value level, a float.");
 }
 
 }  // namespace mrc_python

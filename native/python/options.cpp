@@ -111,9 +111,9 @@ const std::vector<Row>& rows() {
               "contour, in average radii of the connected component; None: no bound"),
         field("refinement", &Options::refinement, "k Steiner points on each edge, 0 or more; 0: contours keep to mesh edges (3.2)"),
         field("regular_iterations", &Options::regular_iterations,
-              "iterations along mesh edges first; each searches a band around\n"
-              "the last one's result and ends early where nothing moves (5.3, 5.6)"),
-        field("iterations", &Options::iterations, "then iterations with refinement"),
+              "iterations along mesh edges first, 0 or more; each searches a band\n"
+              "around the last one's result and ends early where nothing moves (5.3, 5.6)"),
+        field("iterations", &Options::iterations, "then iterations with refinement, 0 or more"),
         field("length_bias", &Options::length_bias, "weight of length / L0 beside ratio / K, 0 or more (6.1.1)"),
         field("length_floor", &Options::length_floor, "below this share of L0 nothing is gained by shrinking, 0 or more"),
         choice("length_measure", length_measure_names, &Options::length_measure, "'arc', or 'edges' (appendix A)"),
@@ -132,7 +132,8 @@ const std::vector<Row>& rows() {
               "of the disk that curvature is averaged over, in mean edge lengths,\n"
               "above 0 (3.4)"),
         field("curvature_smoothing", &Options::curvature_smoothing,
-              "sigma of the tensor's Gaussian, in mean edge lengths; 0: none (3.4)"),
+              "sigma of the tensor's Gaussian, in mean edge lengths, 0 or more; 0: none\n"
+              "(3.4)"),
         field("kappa0_factor", &Options::kappa0_factor, "kappa_0 of eq. 3.2 over the mean curvature K, above 0"),
         field("feature_exponent", &Options::feature_exponent, "a: K |kappa / K|^a in the place of |kappa|, above 0, at most 16"),
         field("direction_exponent", &Options::direction_exponent,

@@ -14,6 +14,10 @@ namespace {
 
 using mrc::Scales;
 
+using StatusName = py::typing::Literal<"improved", "unchanged", "constrained", "cancelled">;
+using ReasonName = py::typing::Literal<"", "already_best", "not_salient", "no_room", "against_flow", "no_neighbour", "shared_faces",
+                                       "none_refined", "cancelled">;
+
 const char* status_name(mrc::Status status) {
     switch (status) {
         case mrc::Status::improved:
@@ -100,9 +104,11 @@ void bind_scales(py::module_& module) {
 
 void bind_measure(py::module_& module) {
     py::class_<mrc::Measure>(module, "Measure", "The energy of a contour (eq. 3.3).")
-        .def_readonly("ratio", &mrc::Measure::ratio, "numerator / length, in one over the mesh's unit of length.")
+        .def_readonly("ratio", &mrc::Measure::ratio,
+                      "numerator / length, in one over the mesh's unit of length (denominator 'arcs': without unit).")
         .def_readonly("numerator", &mrc::Measure::numerator, "The sum of f over the arcs (eq. 3.2), without unit.")
-        .def_readonly("length", &mrc::Measure::length, "The sum of g over the arcs (eq. 3.1), in the mesh's unit.")
+        .def_readonly("length", &mrc::Measure::length,
+                      "The sum of g over the arcs (eq. 3.1), in the mesh's unit (denominator 'arcs': their number).")
         .def_readonly(
             "objective", &mrc::Measure::objective,
             "What is minimised: the ratio, or with a length bias ratio / K + length_bias max(length / L0, length_floor).");
@@ -132,15 +138,22 @@ PyResult describe(const mrc::Surface& surface, mrc::Result result) {
 void bind_results(py::module_& module) {
     bind_scales(module);
     bind_measure(module);
-    py::class_<PyResult>(module, "Result", "What optimize found. Ratios are in one over the mesh's unit of length.")
+    py::class_<PyResult>(
+        module, "Result",
+        "What optimize found. Ratios are in one over the mesh's unit of length (denominator 'arcs': without unit).")
         .def_property_readonly(
-            "status", [](const PyResult& r) { return status_name(r.result.status); },
-            "'improved', 'unchanged', 'constrained' (the given contour broke a requirement) or 'cancelled'.")
+            "status", [](const PyResult& r) { return StatusName(py::str(status_name(r.result.status))); },
+            "'improved', 'unchanged' (the given contour is returned), 'constrained' (it broke a requirement, and the best that "
+            "keeps\n"
+            "all is returned, whatever its ratio) or 'cancelled' (the given contour is returned).")
         .def_property_readonly(
-            "reason_code", [](const PyResult& r) { return reason_name(r.result.reason_code); },
-            "The same for programs: 'already_best', 'not_salient', 'no_room', 'against_flow', 'no_neighbour', 'shared_faces', "
-            "'none_refined', 'cancelled', or empty.")
-        .def_property_readonly("reason", field(&mrc::Result::reason), "Why the given contour is returned, in words.")
+            "reason_code", [](const PyResult& r) { return ReasonName(py::str(reason_name(r.result.reason_code))); },
+            "The same as reason for programs: 'already_best', 'not_salient', 'no_room', 'against_flow', 'no_neighbour',\n"
+            "'shared_faces', 'none_refined', 'cancelled', or empty.")
+        .def_property_readonly(
+            "reason", field(&mrc::Result::reason),
+            "In words: why the given contour is returned; of a 'constrained' result that nothing concave was found\n"
+            "(min_salience); else empty.")
         .def_property_readonly("ratio", field(&mrc::Result::ratio), "Of the contour returned (eq. 3.3); the lower, the better.")
         .def_property_readonly("initial_ratio", field(&mrc::Result::initial_ratio), "Of the given contour.")
         .def_property_readonly(
@@ -149,17 +162,21 @@ void bind_results(py::module_& module) {
         .def_property_readonly("initial_objective", field(&mrc::Result::initial_objective), "Of the given contour.")
         .def_property_readonly(
             "salience", field(&mrc::Result::salience),
-            "Minus the ratio over K of the best found, even where the given contour is returned: above 2 nearly always right, "
-            "below 0.5 seldom.")
+            "How far to trust the best found, even where the given contour is returned: minus the ratio of eq. 3.2's energy alone\n"
+            "(with feature_clamp; without anchor, crease, attractors and region), over K. Above 2 nearly always right, below 0.5\n"
+            "seldom.")
         .def_property_readonly("lower_bound", field(&mrc::Result::lower_bound),
                                "No contour of the last iteration's graph has a lower objective.")
-        .def_property_readonly("gap", field(&mrc::Result::gap), "Objective of the best found minus lower_bound.")
+        .def_property_readonly("gap", field(&mrc::Result::gap), "Objective of the best found minus lower_bound, never negative.")
         .def_property_readonly(
             "held_back_by", [](const PyResult& r) { return py::typing::Tuple<int, py::ellipsis>(py::cast(r.result.held_back_by)); },
             "tuple of int: of optimize_all's contours those that kept this one's last band from growing, by their place in the "
             "list.")
-        .def_property_readonly("history", field(&mrc::Result::history),
-                               "list of float: the objective before the first and after each iteration.")
+        .def_property_readonly(
+            "history", field(&mrc::Result::history),
+            "list of float: the objective after each iteration, before these that of the contour they start from:\n"
+            "once for the regular_iterations and once for those with refinement. It never rises but between these.\n"
+            "Where the given contour breaks a requirement, the first that keeps all is the start.")
         .def_property_readonly("scales", field(&mrc::Result::scales),
                                "The Scales of the given contour; give them back to go on from here.")
         .def_property_readonly(
@@ -182,7 +199,9 @@ void bind_results(py::module_& module) {
             "(N, 3) float64: the points in space, in the mesh's unit.")
         .def_property_readonly(
             "segment_faces", [](const PyResult& r) { return to_array(r.segment_faces); },
-            "(N,) int32: a face that holds the segment from each point to the next; along an edge the left one.")
+            "(N,) int32, of an open contour (N - 1,): a face that holds the segment from each point to the next; along an edge "
+            "the\n"
+            "left one.")
         .def("__repr__", [](const PyResult& r) {
             return std::string("<mrcontour.Result: ") + status_name(r.result.status) + ", ratio " +
                    std::to_string(r.result.initial_ratio) + " -> " + std::to_string(r.result.ratio) + ">";

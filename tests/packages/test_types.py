@@ -44,6 +44,8 @@ MISTAKES = {
     "mrc.optimize(ring, surface)": 'expected "Surface"',
     "result.position": 'error: "Result" has no attribute "position"',
     "len(result.scales.h)": 'expected "Sized"',
+    "result.status == 'improve'": "error: Non-overlapping equality check",
+    "result.reason_code == 'best'": "error: Non-overlapping equality check",
 }
 RIGHT = """
 plain: mrc.Result = mrc.optimize(surface, ring, scales=None, options=mrc.Options(width=None))

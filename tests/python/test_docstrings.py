@@ -6,9 +6,11 @@ import inspect
 import re
 from pathlib import Path
 
+import meshes
 import mrcontour as mrc
 import numpy as np
 import pytest
+from conftest import surface_of
 
 API = Path(__file__).resolve().parents[2] / "addon" / "api.py"
 FUNCTIONS = [name for name in vars(mrc) if inspect.isroutine(getattr(mrc, name))]
@@ -66,8 +68,29 @@ def test_arrays_say_their_types():
         array, said = getattr(curvature, key), words(getattr(mrc.Curvature, key))
         assert str(array.dtype) in said
         assert ("(V, 3)" if array.ndim == 2 else "(V,)") in said
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_results_have_the_shapes_and_types_that_they_say(closed):
+    tube, ring = meshes.tube(1 + 0.1 * np.cos(np.arange(9)), 8), 8 * 4 + np.arange(8)
+    result = mrc.optimize(surface_of(tube), ring, closed)
     for key in ("vertices", "edge_vertices", "edge_parameters", "positions", "segment_faces"):
-        assert re.match(r"\(N(, \d)?,?\) (int32|float64)", words(getattr(mrc.Result, key)))
+        array, said = getattr(result, key), words(getattr(mrc.Result, key))
+        shape, dtype = re.match(r"(\(.*?\)) (\w+)", said).groups()
+        if not closed:
+            shape = (re.search(r"of an open contour (\(.*?\)):", said) or [None, shape])[1]
+        assert str(array.shape) == shape.replace("N - 1", str(len(ring) - 1)).replace("N", str(len(ring)))
+        assert str(array.dtype) == dtype
+
+
+def test_a_signature_fits_on_a_screen():
+    assert max(len(getattr(mrc, name).__doc__.splitlines()[0]) for name in FUNCTIONS) < 600
+
+
+@pytest.mark.parametrize("name", ["optimize", "optimize_all", "measure", "search_space"])
+def test_every_error_is_named_here_or_where_the_words_point(name):
+    said = words(getattr(mrc, name)) + words(mrc.optimize)
+    assert {"ValueError", "Infeasible", "TooLarge", "TypeError"} <= set(re.findall(r"\w+", said))
 
 
 def test_every_function_of_the_api_is_explained():

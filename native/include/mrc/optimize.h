@@ -25,7 +25,7 @@ enum class Status { improved, unchanged, constrained, cancelled };
 enum class Reason {
     none,          ///< it is not
     already_best,  ///< nothing in its band is better
-    not_salient,   ///< there is nothing concave to find (min_salience)
+    not_salient,   ///< there is nothing concave to find (min_salience); of a constrained result too, which is not the given one
     no_room,       ///< no band can grow: its faces touch it all round
     against_flow,  ///< no contour in the band runs along with the flow
     no_neighbour,  ///< it is refined, and no simple contour along edges lies beside it
@@ -54,10 +54,14 @@ struct Result {
     std::string reason;                               ///< the same in words
     double ratio = 0.0, initial_ratio = 0.0;          ///< of the contour returned and of the given one, 1 / unit of length
     double objective = 0.0, initial_objective = 0.0;  ///< what is minimised: see `Objective`
-    double salience = 0.0;          ///< minus the ratio over K of the best found, even where the given contour is returned
-    double lower_bound = 0.0;       ///< no contour of the last iteration's graph, nor the given one, has a lower objective
-    double gap = 0.0;               ///< objective of the best found minus lower_bound, never negative
-    std::vector<double> history;    ///< the objective before the first and after each iteration
+    /// Of the best found, even where the given contour is returned: minus the ratio of eq. 3.2's energy alone (with the clamp; without
+    /// anchor, crease, attractors and region), over K.
+    double salience = 0.0;
+    double lower_bound = 0.0;  ///< no contour of the last iteration's graph, nor the given one, has a lower objective
+    double gap = 0.0;          ///< objective of the best found minus lower_bound, never negative
+    /// The objective after each iteration, before these that of the contour they start from: once for those along edges and once for
+    /// those with refinement. Where the given contour breaks a requirement, the first that keeps all is the start.
+    std::vector<double> history;
     std::vector<int> held_back_by;  ///< of several contours: which ones kept this one's last band from growing, ascending
     Scales scales;
     Statistics statistics;
@@ -67,8 +71,10 @@ struct Result {
 ///
 /// `scales`: those of an earlier result, to go on from it; none: of this contour.
 /// `progress` is called at each of three phases an iteration, and in long phases again every few milliseconds.
-/// @throws InvalidInput for options and wishes out of range and for contours that are not simple or not inside the mesh.
+/// @throws InvalidInput for options and wishes out of range and for contours that are not simple, not inside the mesh or cross a
+/// barrier.
 /// @throws Infeasible where no contour of the band has all required elements.
+/// @throws TooLarge where the search would take more memory than there is, or more arcs than can be counted.
 Result optimize(const Surface& surface, const Contour& contour, const Options& options = {}, const Wishes& wishes = {},
                 const Scales* scales = nullptr, const Progress& progress = {});
 
@@ -88,10 +94,12 @@ std::vector<Result> optimize_all(const Surface& surface, std::span<const Task> t
                                  const Progress& progress = {});
 
 /// The contour's ratio, without optimising. Of the wishes, the attractors and the region term weigh.
+/// @throws InvalidInput and TooLarge as `optimize` does.
 Measure measure(const Surface& surface, const Contour& contour, const Options& options = {}, const Wishes& wishes = {},
                 const Scales* scales = nullptr);
 
 /// The curvatures at all vertices; without scales, h is the whole surface's mean edge length.
+/// @throws InvalidInput for options out of range and where every edge has length 0.
 std::vector<VertexCurvature> curvature(const Surface& surface, const Options& options = {}, const Scales* scales = nullptr);
 
 /// All that one search of this width and refinement builds, for display and for tests.
@@ -101,6 +109,7 @@ struct SearchSpace {
     Flow flow;
     ContourGraph graph;
 };
+/// @throws what `optimize` does.
 SearchSpace search_space(const Surface& surface, const Contour& contour, const Options& options = {}, const Wishes& wishes = {},
                          const Scales* scales = nullptr);
 
