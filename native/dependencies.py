@@ -8,17 +8,22 @@ import sys
 import tempfile
 from pathlib import Path
 
-OPENMESH = "openmesh==1.2.1"  # Python bindings, whose source archive holds OpenMesh's own
-EIGEN = "cmeel-eigen==3.4.1"  # Eigen's headers as a wheel
+# Python bindings, whose source archive holds OpenMesh's own, and Eigen's headers as a wheel. Both are compiled into the
+# packages that are given away, so nothing but these very bytes will do.
+REQUIREMENTS = """
+openmesh==1.2.1 --hash=sha256:6fd3fa41a68148e4a7523f562426aa9758bf65ccc6642abcf79c37bae9c6af3c
+cmeel-eigen==3.4.1 --hash=sha256:0ccd7b73fe8a72e2729784253c982e75d1790e0a8c71f302eb5a1fb1dd3a8a90
+"""
+PIP = [sys.executable, "-m", "pip", "download", "--no-deps", "--no-binary", "openmesh", "--only-binary", "cmeel-eigen"]
 
 
-def fetch(requirement, kind, folder):
-    """Downloads one archive, of the source or a wheel, and unpacks it."""
-    pip = [sys.executable, "-m", "pip", "download", "--no-deps", kind, ":all:", "--dest", folder, requirement]
-    subprocess.run(pip, check=True)
-    (archive,) = folder.iterdir()
-    shutil.unpack_archive(archive, folder / "content", "zip" if archive.suffix == ".whl" else None)
-    return folder / "content"
+def fetch(folder):
+    """Downloads the two archives, whose bytes pip checks, and unpacks them there."""
+    requirements, archives = folder / "requirements.txt", folder / "archives"
+    requirements.write_text(REQUIREMENTS, encoding="utf-8")
+    subprocess.run([*PIP, "--require-hashes", "--requirement", requirements, "--dest", archives], check=True)
+    for archive in archives.iterdir():
+        shutil.unpack_archive(archive, folder, "zip" if archive.suffix == ".whl" else None)
 
 
 def main():
@@ -27,12 +32,9 @@ def main():
     target = parser.parse_args().folder
     shutil.rmtree(target, ignore_errors=True)
     with tempfile.TemporaryDirectory() as scratch:
-        (Path(scratch) / "openmesh").mkdir()
-        (Path(scratch) / "eigen").mkdir()
-        openmesh = fetch(OPENMESH, "--no-binary", Path(scratch) / "openmesh")
-        eigen = fetch(EIGEN, "--only-binary", Path(scratch) / "eigen")
-        shutil.copytree(next(openmesh.glob("*/OpenMesh")), target / "openmesh")
-        shutil.copytree(eigen / "cmeel.prefix", target / "eigen")
+        fetch(Path(scratch))
+        shutil.copytree(next(Path(scratch).glob("openmesh-*/OpenMesh")), target / "openmesh")
+        shutil.copytree(Path(scratch) / "cmeel.prefix", target / "eigen")
 
 
 if __name__ == "__main__":

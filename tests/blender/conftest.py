@@ -6,6 +6,18 @@ import pytest
 from minimum_ratio_contours import api
 
 
+@bpy.app.handlers.persistent
+def find_lost_seams(*_):
+    """Blender 5.1 looks for the seams of a file that 3.4 wrote, as the samples are, in an attribute of another name."""
+    for mesh in bpy.data.meshes:
+        if ".uv_seam" in mesh.attributes and not any(edge.use_seam for edge in mesh.edges):
+            mesh.edges.foreach_set("use_seam", [lost.value for lost in mesh.attributes[".uv_seam"].data])
+
+
+if bpy.app.version >= (5, 1, 0):
+    bpy.app.handlers.load_post.append(find_lost_seams)
+
+
 @pytest.fixture(autouse=True)
 def empty_scene():
     if bpy.context.mode != "OBJECT":
