@@ -56,28 +56,17 @@ class Search {
     }
 
     RatioResult run() {
-        std::vector<std::vector<int>> open, pairs;
         std::vector<int> all(graph_.sources.size());
         for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
+        std::vector<std::vector<int>> open;
         if (!all.empty() && !graph_.destinations.empty()) open.push_back(std::move(all));
         while (!open.empty()) {
-            std::vector<int> set = std::move(open.back());
-            open.pop_back();
-            set = descend(std::move(set));
-            if (set.empty()) continue;
-            if (set.size() == 1 || !graph_.matched) {
-                pairs.push_back(std::move(set));
-                continue;
-            }
-            const auto middle = set.begin() + static_cast<std::ptrdiff_t>(set.size() / 2);
-            open.emplace_back(middle, set.end());
-            open.emplace_back(set.begin(), middle);
+            std::vector<int> set = descend(take_last(open));
+            if (!set.empty()) split(set, open);
         }
-        // Only now, with the best of all pairs' own paths, the single pairs that are left: most of them are decided by it.
-        for (std::vector<int>& pair : pairs) {
-            pair = descend(std::move(pair));
-            if (!pair.empty()) search_above_hull(pair);
-        }
+        // Only now, with the best of all pairs' own paths, what is left: most of it is decided by that.
+        std::ranges::sort(hulls_);
+        search_above_hulls();
         result_.lower_bound = std::min(result_.objective, unresolved_);
         return std::move(result_);
     }
@@ -92,6 +81,7 @@ class Search {
     std::vector<double> potential_;  // of each pair
     Pass pass_;
     double lambda_;
+    std::vector<int> hulls_;        // the pairs whose hull is known at some lambda but whose optimum may lie above it
     bool counted_;                  // every arc has length 1, so that L is a count (appendix A)
     double unresolved_ = infinity;  // least bound of the pairs given up
     RatioResult result_;
@@ -99,12 +89,24 @@ class Search {
     /// What a pair's F - lambda L must be below to matter.
     double threshold(double lambda) const { return result_.found ? objective_.threshold(result_.objective, lambda) : infinity; }
 
+    static std::vector<int> take_last(std::vector<std::vector<int>>& sets) {
+        std::vector<int> set = std::move(sets.back());
+        sets.pop_back();
+        return set;
+    }
+
+    static void split(const std::vector<int>& set, std::vector<std::vector<int>>& sets) {
+        const auto middle = set.begin() + static_cast<std::ptrdiff_t>(set.size() / 2);
+        sets.emplace_back(middle, set.end());
+        sets.emplace_back(set.begin(), middle);
+    }
+
     /// Improves the best as long as the set shows a better path of one of its own pairs, and potentials as long as that may rule out
     /// pairs; gives the pairs still undecided.
     std::vector<int> descend(std::vector<int> set) {
         if (set.size() == 1) potential_[set[0]] = 0.0;
         for (int laps = 0;;) {
-            relax(set);
+            relax(set, lambda_);
             std::vector<int> undecided;
             const bool improved = collect(set, undecided);
             laps = improved ? 0 : laps + 1;
@@ -143,6 +145,11 @@ class Search {
         return threshold == infinity ? bound < infinity : bound < threshold - 1e-14 * (1.0 + std::abs(threshold));
     }
 
+    /// Whether the last pass's path to a destination starts where it should: then its bound is a path of the pair.
+    bool own(int destination) const {
+        return !graph_.matched || pass_.origin[graph_.destinations[destination].node] == destination;
+    }
+
     /// Keeps the pairs whose bound is below the threshold, and takes the best path among those that end where they began.
     bool collect(const std::vector<int>& set, std::vector<int>& undecided) {
         const double before = threshold(pass_.lambda);
@@ -150,11 +157,9 @@ class Search {
         const auto consider = [&](int destination) {
             const double bound = bound_at(pass_, destination);
             if (bound == infinity || !beats(bound, before)) return false;
-            const bool own = !graph_.matched || pass_.origin[graph_.destinations[destination].node] == destination;
-            const bool taken = own && take(graph_.destinations[destination]);
-            improved |= taken;
+            improved |= own(destination) && take(graph_.destinations[destination]);
             // For the plain ratio a pair's own path at this lambda decides it, unless lambda has fallen since.
-            return !own || improved || objective_.bias > 0.0;
+            return !own(destination) || improved || objective_.bias > 0.0;
         };
         if (graph_.matched) {
             for (const int i : set) {
@@ -163,6 +168,11 @@ class Search {
         } else {
             for (std::size_t i = 0; i < graph_.destinations.size(); ++i) open |= consider(static_cast<int>(i));
             if (open) undecided = set;
+        }
+        if (!improved && objective_.bias > 0.0) {
+            const auto exact = std::ranges::stable_partition(undecided, [&](int i) { return !own(i); });
+            hulls_.insert(hulls_.end(), exact.begin(), exact.end());
+            undecided.erase(exact.begin(), exact.end());
         }
         return improved;
     }
@@ -194,10 +204,9 @@ class Search {
         return true;
     }
 
-    void relax(const std::vector<int>& set) { relax(set, lambda_, pass_); }
-
     /// One pass in topological order (Bellman and Ford's relaxation is linear there) from a set of sources.
-    void relax(const std::vector<int>& set, double lambda, Pass& pass) {
+    void relax(const std::vector<int>& set, double lambda) {
+        Pass& pass = pass_;
         ++result_.passes;
         if (beat_) beat_();
         pass.lambda = lambda;
@@ -236,23 +245,52 @@ class Search {
         return all;
     }
 
-    /// Decides one pair: more lambdas, which cut off what they can of the lens between the hull and the best; then labels.
-    void search_above_hull(const std::vector<int>& set) {
-        std::vector<Pass> passes{pass_};
-        for (const double side : {-1.0, 1.0}) {
-            for (const double step : {0.5, 1.0, 2.0, 4.0}) {
-                Pass pass;
-                relax(set, lambda_ + side * step * lens_slope(), pass);
-                std::swap(pass, pass_);
-                for (const int end : ends_of(set)) {
-                    if (bound_at(pass_, end) < infinity) take(graph_.destinations[end]);
-                }
-                std::swap(pass, pass_);
-                passes.push_back(std::move(pass));
+    /// Decides the pairs whose hulls are known: more lambdas cut off what they can of the lens between hull and best, of a set of
+    /// pairs at once and then of its halves; what stays open of a single pair is searched by labels.
+    void search_above_hulls() {
+        std::vector<std::vector<int>> open;
+        if (!hulls_.empty()) open.push_back(hulls_);
+        while (!open.empty()) {
+            const std::vector<int> set = take_last(open);
+            const bool last = set.size() == 1 || !graph_.matched;
+            if (last) potential_[set[0]] = 0.0;
+            std::vector<Pass> passes;
+            const std::vector<int> ends = narrow(set, last ? 4 : 1, passes);
+            if (ends.empty()) continue;
+            if (last) {
+                search_lens(set, ends, passes);
+            } else if (ends.size() == 1) {
+                open.push_back(ends);
+            } else {
+                split(ends, open);
             }
         }
+    }
+
+    /// Passes at the slope of the best and at so many lambdas on either side, until none leaves a lens open; gives the destinations
+    /// of those that it leaves.
+    std::vector<int> narrow(const std::vector<int>& set, int sides, std::vector<Pass>& passes) {
+        std::vector<int> ends = ends_of(set);
+        const auto cut = [&](double step) {
+            relax(set, lambda_ + step * lens_slope());
+            for (const int end : ends) {
+                if (own(end) && bound_at(pass_, end) < infinity) take(graph_.destinations[end]);
+            }
+            passes.push_back(std::move(pass_));
+            std::erase_if(ends, [&](int end) { return !is_open(passes, end); });
+        };
+        cut(0.0);
+        double step = sides == 1 ? 1.0 : 0.5;
+        for (int i = 0; i < 2 * sides && !ends.empty(); ++i) {
+            cut(i % 2 == 0 ? -step : step);
+            if (i % 2 == 1) step *= 2.0;
+        }
+        return ends;
+    }
+
+    void search_lens(const std::vector<int>& set, const std::vector<int>& ends, const std::vector<Pass>& passes) {
         for (const int i : set) same_node_[i] = std::exchange(start_[graph_.sources[i].node], i);
-        for (const int end : ends_of(set)) counted_ ? search_counts(passes, end) : search_labels(passes, end);
+        for (const int end : ends) counted_ ? search_counts(passes, end) : search_labels(passes, end);
         for (const int i : set) start_[graph_.sources[i].node] = -1;
     }
 
@@ -329,9 +367,19 @@ class Search {
 
     /// True where some path on from here may beat the best: where a part of h lies above all passes' lines.
     bool worth_while(const std::vector<Pass>& passes, const Label& label) const {
+        return is_open(passes, [&](const Pass& pass) { return pass.value[label.node] + (label.f - pass.lambda * label.g); });
+    }
+
+    /// The same for all paths of a pair.
+    bool is_open(const std::vector<Pass>& passes, int destination) const {
+        return is_open(passes, [&](const Pass& pass) { return bound_at(pass, destination); });
+    }
+
+    template <class Bound>
+    bool is_open(const std::vector<Pass>& passes, Bound&& bound_of) const {
         lines_.clear();
         for (const Pass& pass : passes) {
-            const double bound = pass.value[label.node] + (label.f - pass.lambda * label.g);
+            const double bound = bound_of(pass);
             if (!beats(bound, threshold(pass.lambda))) return false;
             lines_.push_back({pass.lambda, bound});
         }
