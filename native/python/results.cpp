@@ -14,9 +14,9 @@ namespace {
 
 using mrc::Scales;
 
-using StatusName = py::typing::Literal<"improved", "unchanged", "constrained", "cancelled">;
-using ReasonName = py::typing::Literal<"", "already_best", "not_salient", "no_room", "against_flow", "no_neighbour", "shared_faces",
-                                       "none_refined", "cancelled">;
+using StatusName = py::typing::Literal<"'improved'", "'unchanged'", "'constrained'", "'cancelled'">;
+using ReasonName = py::typing::Literal<"''", "'already_best'", "'not_salient'", "'no_room'", "'against_flow'", "'no_neighbour'",
+                                       "'shared_faces'", "'none_refined'", "'cancelled'">;
 
 const char* status_name(mrc::Status status) {
     switch (status) {
