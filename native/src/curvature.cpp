@@ -190,7 +190,6 @@ class CurvatureField::Impl {
         const std::vector<int> fresh = without_curvature(vertices);
         if (fresh.empty()) return;
         make_tensors(fresh, beat);
-        curvatures_.reserve(curvatures_.size() + fresh.size());
         for (std::size_t i = 0; i < fresh.size(); ++i) {
             if (beat && i % 64 == 0) beat();
             curvatures_.push_back(principal(smoothed(fresh[i]), vertex_normal(surface_, near_.vertex(fresh[i]))));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "allocated.h"
 #include "waisted_torus.h"
 
 #include <mrc/curvature.h>
@@ -52,6 +53,16 @@ TEST_F(Field, is_the_same_in_any_order_at_once_or_in_parts) {
     in_parts.at(3);
     in_parts.prepare(all);
     EXPECT_TRUE(same(read(in_parts), one_by_one));
+}
+
+TEST_F(Field, takes_no_more_memory_for_a_vertex_the_more_there_are) {
+    const auto taken = [&](std::size_t count) {
+        const CurvatureField one_by_one = field();
+        const std::size_t before = mrc_test::allocated_bytes();
+        for (std::size_t i = 0; i < count; ++i) one_by_one.at(all[i]);
+        return static_cast<double>(mrc_test::allocated_bytes() - before) / static_cast<double>(count);
+    };
+    EXPECT_LT(taken(all.size()), 2.0 * taken(all.size() / 16));
 }
 
 TEST_F(Field, dihedral_angles_do_not_depend_on_what_was_prepared) {
