@@ -153,7 +153,7 @@ void bind_results(py::module_& module) {
         .def_property_readonly(
             "reason", field(&mrc::Result::reason),
             "In words: why the given contour is returned; of a 'constrained' result that nothing concave was found\n"
-            "(min_salience); else empty.")
+            "(min_salience); else, and where no iteration was asked for, empty.")
         .def_property_readonly("ratio", field(&mrc::Result::ratio), "Of the contour returned (eq. 3.3); the lower, the better.")
         .def_property_readonly("initial_ratio", field(&mrc::Result::initial_ratio), "Of the given contour.")
         .def_property_readonly(
@@ -174,7 +174,7 @@ void bind_results(py::module_& module) {
             "list.")
         .def_property_readonly(
             "history", field(&mrc::Result::history),
-            "list of float: the objective after each iteration, before these that of the contour they start from:\n"
+            "list of float: the objective after each iteration that had a band, before these that of the contour they start from:\n"
             "once for the regular_iterations and once for those with refinement. It never rises but between these.\n"
             "Where the given contour breaks a requirement, the first that keeps all is the start.")
         .def_property_readonly("scales", field(&mrc::Result::scales),

@@ -61,8 +61,7 @@ class Search {
         std::vector<std::vector<int>> open;
         if (!all.empty() && !graph_.destinations.empty()) open.push_back(std::move(all));
         while (!open.empty()) {
-            std::vector<int> set = descend(take_last(open));
-            if (!set.empty()) split(set, open);
+            split(descend(take_last(open)), open);
         }
         // Only now, with the best of all pairs' own paths, what is left: most of it is decided by that.
         std::ranges::sort(hulls_);
@@ -95,7 +94,12 @@ class Search {
         return set;
     }
 
-    static void split(const std::vector<int>& set, std::vector<std::vector<int>>& sets) {
+    /// In halves; a single pair, by itself, is bounded more tightly than among others.
+    static void split(std::vector<int> set, std::vector<std::vector<int>>& sets) {
+        if (set.size() <= 1) {
+            if (!set.empty()) sets.push_back(std::move(set));
+            return;
+        }
         const auto middle = set.begin() + static_cast<std::ptrdiff_t>(set.size() / 2);
         sets.emplace_back(middle, set.end());
         sets.emplace_back(set.begin(), middle);
@@ -255,14 +259,11 @@ class Search {
             const bool last = set.size() == 1 || !graph_.matched;
             if (last) potential_[set[0]] = 0.0;
             std::vector<Pass> passes;
-            const std::vector<int> ends = narrow(set, last ? 4 : 1, passes);
-            if (ends.empty()) continue;
+            std::vector<int> ends = narrow(set, last ? 4 : 1, passes);
             if (last) {
                 search_lens(set, ends, passes);
-            } else if (ends.size() == 1) {
-                open.push_back(ends);
             } else {
-                split(ends, open);
+                split(std::move(ends), open);
             }
         }
     }
@@ -272,7 +273,7 @@ class Search {
     std::vector<int> narrow(const std::vector<int>& set, int sides, std::vector<Pass>& passes) {
         std::vector<int> ends = ends_of(set);
         const auto cut = [&](double step) {
-            relax(set, lambda_ + step * lens_slope());
+            relax(graph_.matched ? ends : set, lambda_ + step * lens_slope());
             for (const int end : ends) {
                 if (own(end) && bound_at(pass_, end) < infinity) take(graph_.destinations[end]);
             }

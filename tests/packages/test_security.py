@@ -13,9 +13,10 @@ HARMLESS = {"collections", "contextlib", "dataclasses", "enum", "functools", "he
 HARMLESS |= {"operator", "pathlib", "queue", "re", "sys", "textwrap", "threading", "time", "types", "typing"}
 ALLOWED = BLENDER | HARMLESS | {"mathutils", "numpy"}
 FORBIDDEN = {"__import__", "compile", "eval", "exec", "execfile", "fromfile", "genfromtxt", "memmap", "popen", "rename"}
+FORBIDDEN |= {"as_module", "chmod", "python_file_run", "run_script", "screenshot"}
 FORBIDDEN |= {"render", "rmdir", "symlink_to", "hardlink_to", "system", "tofile", "touch", "unlink", "urlopen"}
 FORBIDDEN_STARTS = ("dump", "export", "load", "makedirs", "mkdir", "open", "save", "url_", "write")
-FORBIDDEN_ENDS = ("_export", "_render")
+FORBIDDEN_ENDS = ("_export", "_install", "_render")
 # The add-on's own, which write to meshes, and what only sounds like it.
 KNOWN = {"cut.write", "mesh_access.write_labels", "mesh_access.write_seams", "outputs.write", "seams.write"}
 KNOWN |= {"gpu.matrix.load_projection_matrix", "re.compile", "report.open_region", "segmentation.write"}
@@ -55,6 +56,7 @@ def test_only_harmless_modules_and_calls(path):
 NOTICED = ["__import__", "eval", "exec", "file.write", "numpy.load", "numpy.savetxt", "open", "path.unlink"]
 NOTICED += ["bpy.ops.export_scene.gltf", "bpy.ops.render.render", "bpy.ops.wm.obj_export", "bpy.ops.wm.save_userpref"]
 NOTICED += ["bpy.ops.wm.save_as_mainfile", "bpy.ops.wm.url_open", "bpy.utils.execfile", "image.save_render"]
+NOTICED += ["bpy.ops.extensions.package_install", "bpy.ops.text.run_script", "path.chmod"]
 HARMLESS_CALLS = ["seams.write", "importlib.import_module", "self.execute", "parts.append", "old.touches", "re.compile"]
 
 

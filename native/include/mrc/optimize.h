@@ -59,7 +59,7 @@ struct Result {
     double salience = 0.0;
     double lower_bound = 0.0;  ///< no contour of the last iteration's graph, nor the given one, has a lower objective
     double gap = 0.0;          ///< objective of the best found minus lower_bound, never negative
-    /// The objective after each iteration, before these that of the contour they start from: once for those along edges and once for
+    /// The objective after each iteration that had a band, before these that of the contour they start from: once for those along edges and once for
     /// those with refinement. Where the given contour breaks a requirement, the first that keeps all is the start.
     std::vector<double> history;
     std::vector<int> held_back_by;  ///< of several contours: which ones kept this one's last band from growing, ascending
@@ -94,7 +94,7 @@ std::vector<Result> optimize_all(const Surface& surface, std::span<const Task> t
                                  const Progress& progress = {});
 
 /// The contour's ratio, without optimising. Of the wishes, the attractors and the region term weigh.
-/// @throws InvalidInput and TooLarge as `optimize` does.
+/// @throws InvalidInput and TooLarge as `optimize` does; barriers do not matter.
 Measure measure(const Surface& surface, const Contour& contour, const Options& options = {}, const Wishes& wishes = {},
                 const Scales* scales = nullptr);
 
