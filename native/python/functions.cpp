@@ -238,9 +238,8 @@ void bind_functions(py::module_& module) {
         "scales: those of an earlier result, to go on from it.\n"
         "progress: called with the share done, from 0 to 1, three phases an iteration, and in long phases again every few\n"
         "milliseconds; returning False cancels, an exception passes through.\n"
-        "Returns a Result. Raises ValueError naming the elements where the contour is not simple, not inside the mesh or crosses "
-        "a\n"
-        "barrier; of these Infeasible, where no contour of the band has all required elements, and TooLarge, where the search\n"
+        "Returns a Result. Raises ValueError naming the elements where the contour is not simple, not inside the mesh or crosses\n"
+        "a barrier; of these Infeasible, where no contour of the band has all required elements, and TooLarge, where the search\n"
         "would take more memory than there is. Ids that are no whole numbers are a TypeError.");
     module.def(
         "optimize_all", &optimize_all, py::arg("surface"), py::arg("contours"), py::arg("closed") = true, defaults,
