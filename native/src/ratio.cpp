@@ -304,16 +304,20 @@ class Search {
         double slope, height;
     };
     mutable std::vector<Line> lines_;  // scratch of one label
+    // What decided the last lenses is tried first: a path's lens is much like that of the path that it continues.
+    mutable std::size_t closing_ = 0;   // the pass that closed one
+    mutable double open_length_ = 0.0;  // where one was open
 
     struct Label {
         int node, arc, before;  // the path goes on through `arc` and then as label `before` does
+        int steps;              // how often the best had improved when the path was found worth while
         double f, g;
     };
 
     /// Walks back from a destination over all partial paths that every pass's bound allows to beat the best.
     void search_labels(const std::vector<Pass>& passes, int destination) {
         const Terminal& end = graph_.destinations[destination];
-        std::vector<Label> labels{{end.node, -1, -1, end.f, end.g}};
+        std::vector<Label> labels{{end.node, -1, -1, result_.steps, end.f, end.g}};
         std::vector<int> stack{0};
         if (!worth_while(passes, labels[0])) return;
         const int most = most_labels_ - result_.labels;
@@ -322,10 +326,10 @@ class Search {
             stack.pop_back();
             const Label label = labels[index];
             if (beat_ && index % 256 == 0) beat_();
-            if (!worth_while(passes, label)) continue;
+            if (label.steps != result_.steps && !worth_while(passes, label)) continue;
             if (start_[label.node] >= 0) finish_label(labels, index);
             for (int a = graph_.first_arc[label.node]; a < graph_.first_arc[label.node + 1]; ++a) {
-                const Label next{graph_.from[a], a, index, label.f + graph_.f[a], label.g + graph_.g[a]};
+                const Label next{graph_.from[a], a, index, result_.steps, label.f + graph_.f[a], label.g + graph_.g[a]};
                 if (!worth_while(passes, next)) continue;
                 if (static_cast<int>(labels.size()) >= most) return give_up(passes, destination);
                 stack.push_back(static_cast<int>(labels.size()));
@@ -339,7 +343,7 @@ class Search {
     /// recurrence (A.3), kept to what the passes allow.
     void search_counts(const std::vector<Pass>& passes, int destination) {
         const Terminal& end = graph_.destinations[destination];
-        std::vector<Label> labels{{end.node, -1, -1, end.f, end.g}};
+        std::vector<Label> labels{{end.node, -1, -1, result_.steps, end.f, end.g}};
         std::vector<std::vector<int>> at(graph_.node_count());
         at[end.node].push_back(0);
         for (int n = end.node; n >= 0; --n) {
@@ -349,7 +353,7 @@ class Search {
                 if (!worth_while(passes, label)) continue;
                 if (start_[n] >= 0) finish_label(labels, index);
                 for (int a = graph_.first_arc[n]; a < graph_.first_arc[n + 1]; ++a) {
-                    keep_best({graph_.from[a], a, index, label.f + graph_.f[a], label.g + graph_.g[a]}, labels, at[graph_.from[a]]);
+                    keep_best({graph_.from[a], a, index, result_.steps, label.f + graph_.f[a], label.g + graph_.g[a]}, labels, at[graph_.from[a]]);
                 }
             }
         }
@@ -378,11 +382,15 @@ class Search {
 
     template <class Bound>
     bool is_open(const std::vector<Pass>& passes, Bound&& bound_of) const {
-        lines_.clear();
-        for (const Pass& pass : passes) {
-            const double bound = bound_of(pass);
-            if (!beats(bound, threshold(pass.lambda))) return false;
-            lines_.push_back({pass.lambda, bound});
+        const auto closes = [&](const Pass& pass, double bound) { return !beats(bound, threshold(pass.lambda)); };
+        if (closing_ < passes.size() && closes(passes[closing_], bound_of(passes[closing_]))) return false;
+        lines_.resize(passes.size());
+        for (std::size_t i = 0; i < passes.size(); ++i) {
+            lines_[i] = {passes[i].lambda, bound_of(passes[i])};
+            if (closes(passes[i], lines_[i].height)) {
+                closing_ = i;
+                return false;
+            }
         }
         return lens_is_open();
     }
@@ -394,8 +402,11 @@ class Search {
         if (std::ranges::all_of(lines_, [](const Line& line) { return line.height < 0.0; })) return true;
         const auto open_at = [&](double L) {
             const double h = objective_.scale * L * (result_.objective - objective_.bias * std::max(L, objective_.floor));
-            return L > 0.0 && std::ranges::all_of(lines_, [&](const Line& line) { return line.slope * L + line.height < h; });
+            const bool open = L > 0.0 && std::ranges::all_of(lines_, [&](const Line& line) { return line.slope * L + line.height < h; });
+            if (open) open_length_ = L;
+            return open;
         };
+        if (open_at(open_length_)) return true;
         for (std::size_t i = 0; i < lines_.size(); ++i) {
             if (open_at(objective_.peak(result_.objective, lines_[i].slope))) return true;
             for (std::size_t j = 0; j < i; ++j) {

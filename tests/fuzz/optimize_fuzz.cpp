@@ -33,7 +33,7 @@ Options made_options(FuzzedDataProvider& data) {
         o.denominator = mrc::Denominator::arcs;
         o.length_measure = mrc::LengthMeasure::edges;
     }
-    o.length_bias = between(data, 0.0, 4.0);
+    o.length_bias = std::max(0.0, between(data, -4.0, 4.0));
     o.length_floor = between(data, 0.0, 1.5);
     o.anchor = between(data, 0.0, 3.0);
     o.crease = between(data, 0.0, 2.0);
