@@ -47,7 +47,7 @@ make_venv() {  # DIRECTORY REQUIREMENT...
     if [ "$(cat "$directory/contents" 2>/dev/null)" = "$contents" ]; then return 0; fi
     say "installing with pip into ${directory#"$root"/}:" "$@"
     rm -rf "$directory"
-    logged venv "$python" -m venv "$directory" &&
+    logged "venv-$(basename "$directory")" "$python" -m venv "$directory" &&
         logged "pip-$(basename "$directory")" "$directory/bin/python" -m pip install --disable-pip-version-check "$@" &&
         echo "$contents" >"$directory/contents"
 }

@@ -16,5 +16,6 @@ add_library(OpenMeshCore STATIC
     ${openmesh_core}/System/omstream.cc
     ${openmesh_core}/Utils/BaseProperty.cc
     ${openmesh_core}/Utils/Endian.cc)
+set_target_properties(OpenMeshCore PROPERTIES UNITY_BUILD OFF)
 target_include_directories(OpenMeshCore SYSTEM PUBLIC ${MRC_DEPENDENCIES}/openmesh/src)
 target_compile_definitions(OpenMeshCore PUBLIC OM_STATIC_BUILD _USE_MATH_DEFINES)

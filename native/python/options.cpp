@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "arrays.h"
 #include "bindings.h"
 
 #include <mrc/options.h>
@@ -17,7 +18,6 @@
 namespace mrc_python {
 namespace {
 
-namespace py = pybind11;
 using mrc::Denominator;
 using mrc::Ends;
 using mrc::Feature;

@@ -14,9 +14,14 @@ namespace {
 
 using mrc::Scales;
 
+#ifdef PYBIND11_TYPING_H_HAS_STRING_LITERAL
 using StatusName = py::typing::Literal<"'improved'", "'unchanged'", "'constrained'", "'cancelled'">;
 using ReasonName = py::typing::Literal<"''", "'already_best'", "'not_salient'", "'no_room'", "'against_flow'", "'no_neighbour'",
                                        "'shared_faces'", "'none_refined'", "'cancelled'">;
+#else  // clang before 18 takes no text as a template's argument
+using StatusName = py::str;
+using ReasonName = py::str;
+#endif
 
 const char* status_name(mrc::Status status) {
     switch (status) {

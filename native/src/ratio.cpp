@@ -344,29 +344,35 @@ class Search {
     void search_counts(const std::vector<Pass>& passes, int destination) {
         const Terminal& end = graph_.destinations[destination];
         std::vector<Label> labels{{end.node, -1, -1, result_.steps, end.f, end.g}};
-        std::vector<std::vector<int>> at(graph_.node_count());
-        at[end.node].push_back(0);
+        std::vector<std::vector<Count>> at(graph_.node_count());
+        at[end.node].push_back({end.g, 0});
         for (int n = end.node; n >= 0; --n) {
             if (beat_) beat_();
-            for (const int index : at[n]) {
-                const Label label = labels[index];
+            for (const Count& count : at[n]) {
+                const Label label = labels[count.label];
                 if (!worth_while(passes, label)) continue;
-                if (start_[n] >= 0) finish_label(labels, index);
+                if (start_[n] >= 0) finish_label(labels, count.label);
                 for (int a = graph_.first_arc[n]; a < graph_.first_arc[n + 1]; ++a) {
-                    keep_best({graph_.from[a], a, index, result_.steps, label.f + graph_.f[a], label.g + graph_.g[a]}, labels, at[graph_.from[a]]);
+                    keep_best({graph_.from[a], a, count.label, result_.steps, label.f + graph_.f[a], label.g + graph_.g[a]}, labels,
+                              at[graph_.from[a]]);
                 }
             }
         }
         result_.labels += static_cast<int>(labels.size());
     }
 
-    static void keep_best(const Label& label, std::vector<Label>& labels, std::vector<int>& here) {
-        const auto same = std::ranges::find_if(here, [&](int i) { return labels[i].g == label.g; });
-        if (same == here.end()) {
-            here.push_back(static_cast<int>(labels.size()));
+    struct Count {
+        double g;
+        int label;
+    };
+
+    static void keep_best(const Label& label, std::vector<Label>& labels, std::vector<Count>& here) {
+        const auto same = std::ranges::lower_bound(here, label.g, {}, &Count::g);
+        if (same == here.end() || same->g != label.g) {
+            here.insert(same, {label.g, static_cast<int>(labels.size())});
             labels.push_back(label);
-        } else if (label.f < labels[*same].f) {
-            labels[*same] = label;
+        } else if (label.f < labels[same->label].f) {
+            labels[same->label] = label;
         }
     }
 
@@ -402,7 +408,8 @@ class Search {
         if (std::ranges::all_of(lines_, [](const Line& line) { return line.height < 0.0; })) return true;
         const auto open_at = [&](double L) {
             const double h = objective_.scale * L * (result_.objective - objective_.bias * std::max(L, objective_.floor));
-            const bool open = L > 0.0 && std::ranges::all_of(lines_, [&](const Line& line) { return line.slope * L + line.height < h; });
+            const bool open =
+                L > 0.0 && std::ranges::all_of(lines_, [&](const Line& line) { return line.slope * L + line.height < h; });
             if (open) open_length_ = L;
             return open;
         };

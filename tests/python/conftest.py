@@ -44,6 +44,21 @@ def realistic_contours():
     return [(f"{name}-{i}", mesh, loop) for i, (name, mesh, loop) in enumerate(cases)]
 
 
+def pytest_addoption(parser):
+    parser.addoption("--few", type=int, help="of each test only so many of its cases, spread evenly")
+
+
+def pytest_collection_modifyitems(config, items):
+    if not (few := config.getoption("--few")):
+        return
+    cases = {}
+    for item in items:
+        cases.setdefault(item.nodeid.partition("[")[0], []).append(item)
+    kept = {id(group[i * len(group) // few]) for group in cases.values() for i in range(few)}
+    config.hook.pytest_deselected(items=[item for item in items if id(item) not in kept])
+    items[:] = [item for item in items if id(item) in kept]
+
+
 def pytest_generate_tests(metafunc):
     if "realistic" in metafunc.fixturenames:
         cases = realistic_contours()
