@@ -49,7 +49,8 @@ struct RatioOptions {
     Objective objective;
     /// A path like this is expected: it sets where the search begins, and nothing else.
     std::optional<Terminal> guess = {};
-    /// The search for paths above the lower hull gives up after so many labels, and reports the gap that is left.
+    /// The search for paths above the lower hull gives up after so many labels, and reports the gap that is left; where lengths are
+    /// counts it never needs to (A.3).
     int most_labels = 1'000'000;
     Beat beat = {};  ///< called at every pass and every few labels
 };
