@@ -46,8 +46,6 @@ class GraphBuilder {
 
     ContourGraph build() {
         beat();
-        merge_levels(ambient_.values, ambient_.segments);
-        beat();
         choose_level();
         keep_off_others();
         beat();

@@ -8,8 +8,6 @@
 namespace mrc {
 namespace {
 
-constexpr double level_tolerance = 1e-9;
-
 /// Union-find over points whose values differ by whole numbers: value(p) and value(root(p)) + offset(p) are one flow value.
 class LiftedClasses {
   public:
@@ -44,14 +42,8 @@ class LiftedClasses {
     std::vector<int> offset_;
 };
 
-}  // namespace
-
 // Offsets: lifted(p) = value(p) - offset(p) is comparable within a class. For a level segment value(b) + jump = value(a).
-void merge_levels(std::vector<double>& values, std::vector<Segment>& segments) {
-    LiftedClasses classes(values.size());
-    for (const Segment& s : segments) {
-        if (std::abs(values[s.b] - values[s.a] + s.jump) < level_tolerance) classes.unite(s.a, s.b, s.jump);
-    }
+void merge_classes(LiftedClasses& classes, std::vector<double>& values, std::vector<Segment>& segments) {
     std::vector<double> sums(values.size(), 0.0);
     std::vector<int> counts(values.size(), 0), offsets(values.size(), 0), roots(values.size(), 0);
     for (std::size_t p = 0; p < values.size(); ++p) {
@@ -67,6 +59,22 @@ void merge_levels(std::vector<double>& values, std::vector<Segment>& segments) {
     for (Segment& s : segments) {
         const auto offset = [&](int p) { return counts[roots[p]] > 1 ? offsets[p] : 0; };
         s.jump += offset(s.b) - offset(s.a);
+    }
+}
+
+}  // namespace
+
+void merge_levels(std::vector<double>& values, std::vector<Segment>& segments, double tolerance) {
+    // A mean lies away from the values that it replaces, and so may come near to a neighbour's.
+    for (bool merged = true; merged;) {
+        merged = false;
+        LiftedClasses classes(values.size());
+        for (const Segment& s : segments) {
+            if (std::abs(values[s.b] - values[s.a] + s.jump) >= tolerance) continue;
+            classes.unite(s.a, s.b, s.jump);
+            merged |= values[s.a] != values[s.b];
+        }
+        if (merged) merge_classes(classes, values, segments);
     }
 }
 
@@ -89,7 +97,7 @@ double cheapest_level(const std::vector<double>& values, const std::vector<Segme
         crossings += change[order[i].second];
         const double next = i + 1 < order.size() ? order[i + 1].first : 1.0 + order[0].first;
         const double gap = next - order[i].first;
-        if (gap < level_tolerance) continue;
+        if (gap < level_vertices) continue;
         const std::pair<int, double> candidate{crossings, -gap};
         if (candidate < best) {
             best = candidate;

@@ -18,9 +18,13 @@ struct Segment {
 inline int whole(double value, double level) { return static_cast<int>(std::floor(value - level)); }
 inline double above(double value, double level) { return value - level - std::floor(value - level); }
 
-/// Gives points joined by segments with increments below 1e-9 one value, their mean, so that being level is transitive. Values and
-/// jumps change together: the increment of a segment within such a class is exactly 0.
-void merge_levels(std::vector<double>& values, std::vector<Segment>& segments);
+/// Below these increments two vertices, and two points of a refined graph, are level. The flow of the vertices is a solution of
+/// equations, with their rounding; that of Steiner points lies between them, exactly but for the last digits.
+constexpr double level_vertices = 1e-9, level_points = 1e-12;
+
+/// Gives points joined by segments with increments below the tolerance one value, their mean, so that being level is transitive:
+/// then a segment joins equal values without a jump, or its increment is not below the tolerance. Values and jumps change together.
+void merge_levels(std::vector<double>& values, std::vector<Segment>& segments, double tolerance);
 
 /// A level through no point that the fewest segments cross; of those the one in the widest gap.
 double cheapest_level(const std::vector<double>& values, const std::vector<Segment>& segments);

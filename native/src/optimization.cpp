@@ -128,15 +128,11 @@ void Optimization::search(Partition* partition, int number, const Beat& beat) {
         return make_graph(surface_, *patch_, band_, flow, setting_->energy, options_, wishes_, steiner_,
                           region ? &*region : nullptr, territory_, beat);
     });
-    RatioResult best = stopwatch_.time("ratio", [&] { return minimum_ratio(graph.search, search_options(beat)); });
+    const RatioResult best = stopwatch_.time("ratio", [&] { return minimum_ratio(graph.search, search_options(beat)); });
     count(graph, best);
-    Contour found;
-    if (best.found) found = trace_contour(graph, *patch_, flow, best.nodes);
-    // Where the flow rises by no more than its rounding, chords across a triangle may run along with it and cross.
-    if (best.found && steiner_ > 0 && crosses_itself(surface_, found)) best.found = false;
     if (!feasible_ && !best.found) throw Infeasible(where_it_stops(graph, wishes_, result_.held_back_by));
     const double before = feasible_ ? result_.objective : std::numeric_limits<double>::infinity();
-    if (best.found) accept(found, region);
+    if (best.found) accept(trace_contour(graph, *patch_, flow, best.nodes), region);
     searched_ |= best.found;
     result_.lower_bound = best.found ? std::min(best.lower_bound, before) : before;
     result_.gap = std::max(0.0, result_.objective - result_.lower_bound);

@@ -132,19 +132,22 @@ struct Crossing {
     std::size_t segment;
 };
 
-/// Two segments that cross: inside one triangle, where their ends alternate on its border.
-std::optional<std::pair<std::size_t, std::size_t>> crossing_segments(std::vector<Crossing>& crossings) {
+/// Segments inside one triangle cross where their ends alternate on its border.
+void check_crossings(const Contour& contour, std::vector<Crossing>& crossings) {
     std::ranges::sort(crossings, {}, &Crossing::triangle);
     for (auto first = crossings.begin(); first != crossings.end();) {
         const auto end = std::find_if(first, crossings.end(), [&](const Crossing& c) { return c.triangle != first->triangle; });
         for (auto i = first; i != end; ++i) {
             for (auto j = first; j != end; ++j) {
-                if (i->low < j->low && j->low < i->high && i->high < j->high) return std::pair(i->segment, j->segment);
+                if (i->low < j->low && j->low < i->high && i->high < j->high) {
+                    throw InvalidInput("the contour crosses itself behind " + point_name(contour.points[i->segment]) +
+                                       " and behind " + point_name(contour.points[j->segment]) +
+                                       ": give a contour that does not touch itself");
+                }
             }
         }
         first = end;
     }
-    return std::nullopt;
 }
 
 bool on_edge(const Surface& surface, int halfedge, const SurfacePoint& p) {
@@ -152,18 +155,10 @@ bool on_edge(const Surface& surface, int halfedge, const SurfacePoint& p) {
     return (p.a == a || p.a == b) && (p.b == a || p.b == b);
 }
 
-/// A segment along an edge lies on the border of both its triangles.
-void add_crossings(const Surface& surface, int triangle, const SurfacePoint& p, const SurfacePoint& q, std::size_t index,
-                   std::vector<Crossing>& crossings) {
-    const auto add = [&](int of) {
-        const double from = border_place(surface, of, p), to = border_place(surface, of, q);
-        crossings.push_back({of, std::min(from, to), std::max(from, to), index});
-    };
-    add(triangle);
-    for (int h = 3 * triangle; h < 3 * triangle + 3; ++h) {
-        const int twin = surface.twin(h);
-        if (twin >= 0 && on_edge(surface, h, p) && on_edge(surface, h, q)) add(twin / 3);
-    }
+void add_crossing(const Surface& surface, int triangle, const SurfacePoint& p, const SurfacePoint& q, std::size_t index,
+                  std::vector<Crossing>& crossings) {
+    const double from = border_place(surface, triangle, p), to = border_place(surface, triangle, q);
+    crossings.push_back({triangle, std::min(from, to), std::max(from, to), index});
 }
 
 void check_edge(const Surface& surface, int a, int b) {
@@ -190,7 +185,13 @@ void check_segment(const Surface& surface, const SurfacePoint& p, const SurfaceP
         throw InvalidInput("the contour between " + point_name(p) + " and " + point_name(q) + " lies " + why +
                            ": move the contour off it");
     }
-    add_crossings(surface, triangle, p, q, index, crossings);
+    // A segment along an edge lies on the border of both its triangles.
+    const int start = 3 * triangle;
+    add_crossing(surface, triangle, p, q, index, crossings);
+    for (int h = start; h < start + 3; ++h) {
+        const int twin = surface.twin(h);
+        if (twin >= 0 && on_edge(surface, h, p) && on_edge(surface, h, q)) add_crossing(surface, twin / 3, p, q, index, crossings);
+    }
 }
 
 /// Collects polygons ring by ring and numbers their vertices.
@@ -294,21 +295,8 @@ Contour checked_contour(const Surface& surface, const Contour& contour) {
     for (std::size_t i = 0; i + (checked.closed ? 0 : 1) < count; ++i) {
         check_segment(surface, checked.points[i], checked.points[(i + 1) % count], i, crossings);
     }
-    if (const auto crossing = crossing_segments(crossings)) {
-        throw InvalidInput("the contour crosses itself behind " + point_name(checked.points[crossing->first]) + " and behind " +
-                           point_name(checked.points[crossing->second]) + ": give a contour that does not touch itself");
-    }
+    check_crossings(checked, crossings);
     return checked;
-}
-
-bool crosses_itself(const Surface& surface, const Contour& contour) {
-    std::vector<Crossing> crossings;
-    const std::size_t count = contour.points.size();
-    for (std::size_t i = 0; i + (contour.closed ? 0 : 1) < count; ++i) {
-        const SurfacePoint &p = contour.points[i], &q = contour.points[(i + 1) % count];
-        add_crossings(surface, triangle_of_segment(surface, p, q), p, q, i, crossings);
-    }
-    return crossing_segments(crossings).has_value();
 }
 
 bool has_neighbour_along_edges(const Surface& surface, const Contour& contour) {

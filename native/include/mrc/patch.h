@@ -51,9 +51,6 @@ Contour checked_contour(const Surface& surface, const Contour& contour);
 /// What keeps a contour from running along the real edge ab, in words; empty: nothing. One side that a band may enter is enough.
 std::string obstacle(const Surface& surface, int a, int b);
 
-/// True where a contour's segments cross inside a triangle.
-bool crosses_itself(const Surface& surface, const Contour& contour);
-
 /// True where a refined contour has a simple contour along mesh edges beside it, from which a band can grow.
 bool has_neighbour_along_edges(const Surface& surface, const Contour& contour);
 
