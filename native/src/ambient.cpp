@@ -64,17 +64,19 @@ class Builder {
         }
     }
 
-    /// Vertices are made level before points come between them: so the flow stays linear in every triangle, and no two chords of a
-    /// triangle that it runs along with can cross.
+    /// Vertices are made level before points come between them, so that the flow stays linear in every triangle.
     void merge_vertices() {
-        std::vector<Segment> edges;
+        std::vector<int> edges;
+        std::vector<Segment> whole;
         for (int e = 0; e < static_cast<int>(patch_.mesh.n_edges()); ++e) {
-            if (used(e)) edges.push_back({point(from(2 * e)), point(to(2 * e)), jump_[2 * e], 2 * e, -1});
+            if (!used(e)) continue;
+            edges.push_back(e);
+            whole.push_back({point(from(2 * e)), point(to(2 * e)), jump_[2 * e], -1, -1});
         }
-        merge_levels(ambient_.values, edges, level_vertices);
-        for (const Segment& s : edges) {
-            jump_[s.halfedge] = s.jump;
-            jump_[s.halfedge + 1] = -s.jump;
+        merge_levels(ambient_.values, whole, level_vertices);
+        for (std::size_t i = 0; i < edges.size(); ++i) {
+            jump_[2 * edges[i]] = whole[i].jump;
+            jump_[2 * edges[i] + 1] = -whole[i].jump;
         }
     }
 

@@ -15,7 +15,7 @@ struct AmbientGraph {
     int steiner = 0;                   ///< k, the Steiner points of an edge
     std::vector<SurfacePoint> places;  ///< of each point: the band's vertices, then the Steiner points
     std::vector<double> ranks;         ///< signed distance from the given contour, positive on its left
-    std::vector<double> values;        ///< of the flow, those that are level made equal
+    std::vector<double> values;        ///< of the flow; where it is level, made equal
     std::vector<Segment> segments;
     std::vector<int> point_of_vertex;      ///< of each patch vertex, -1 outside the band
     std::vector<int> first_point_of_edge;  ///< of each patch edge: its Steiner points follow each other; -1: none

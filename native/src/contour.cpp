@@ -37,7 +37,7 @@ int face_of_segment(const Surface& surface, const SurfacePoint& p, const Surface
 
 }  // namespace
 
-Contour trace_contour(const ContourGraph& graph, const Patch& patch, const Flow& flow, std::span<const int> nodes) {
+Contour trace_contour(const ContourGraph& graph, const Patch& patch, std::span<const int> nodes) {
     std::vector<int> points;
     if (!patch.closed) {
         Contour open{{graph.points[graph.chords[graph.chord_of(nodes.front())].tail].place}, false};
@@ -46,7 +46,8 @@ Contour trace_contour(const ContourGraph& graph, const Patch& patch, const Flow&
     }
     // The last node of a closed path is the first again.
     for (const int node : nodes.first(nodes.size() - 1)) points.push_back(graph.chords[graph.chord_of(node)].head);
-    const double start = above(flow.value[patch.contour[0]], graph.level) - 1e-9;
+    const SurfacePoint first = vertex_point(patch.vertex[patch.contour[0]]);
+    const double start = std::ranges::find(graph.points, first, &GraphPoint::place)->level;
     const auto behind = [&](int p) { return above(graph.points[p].level, start); };
     std::ranges::rotate(points, std::ranges::min_element(points, {}, behind));
     Contour contour;

@@ -8,6 +8,8 @@
 namespace mrc {
 namespace {
 
+constexpr double least_gap = 1e-9;  // between points, for a level that passes between them
+
 /// Union-find over points whose values differ by whole numbers: value(p) and value(root(p)) + offset(p) are one flow value.
 class LiftedClasses {
   public:
@@ -97,7 +99,7 @@ double cheapest_level(const std::vector<double>& values, const std::vector<Segme
         crossings += change[order[i].second];
         const double next = i + 1 < order.size() ? order[i + 1].first : 1.0 + order[0].first;
         const double gap = next - order[i].first;
-        if (gap < level_vertices) continue;
+        if (gap < least_gap) continue;
         const std::pair<int, double> candidate{crossings, -gap};
         if (candidate < best) {
             best = candidate;

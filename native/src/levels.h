@@ -18,8 +18,9 @@ struct Segment {
 inline int whole(double value, double level) { return static_cast<int>(std::floor(value - level)); }
 inline double above(double value, double level) { return value - level - std::floor(value - level); }
 
-/// Below these increments two vertices, and two points of a refined graph, are level. The flow of the vertices is a solution of
-/// equations, with their rounding; that of Steiner points lies between them, exactly but for the last digits.
+/// Below these increments two vertices, and then two points of a refined graph, are level. The second is far below a Steiner step of
+/// the flattest edge, 1e-9 / (k + 1): so much of the linear flow is common at least to two chords that cross in a triangle, and no
+/// contour may hold both.
 constexpr double level_vertices = 1e-9, level_points = 1e-12;
 
 /// Gives points joined by segments with increments below the tolerance one value, their mean, so that being level is transitive:

@@ -132,7 +132,7 @@ void Optimization::search(Partition* partition, int number, const Beat& beat) {
     count(graph, best);
     if (!feasible_ && !best.found) throw Infeasible(where_it_stops(graph, wishes_, result_.held_back_by));
     const double before = feasible_ ? result_.objective : std::numeric_limits<double>::infinity();
-    if (best.found) accept(trace_contour(graph, *patch_, flow, best.nodes), region);
+    if (best.found) accept(trace_contour(graph, *patch_, best.nodes), region);
     searched_ |= best.found;
     result_.lower_bound = best.found ? std::min(best.lower_bound, before) : before;
     result_.gap = std::max(0.0, result_.objective - result_.lower_bound);

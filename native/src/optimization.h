@@ -98,7 +98,6 @@ class Optimization {
     void prepare_curvature(const Beat& beat) const;
     bool below(double a, double b) const;
     void accept(const Contour& found, const std::optional<EdgeForm>& region);
-    void conclude(const ContourGraph& graph, const RatioResult& best, double before);
     RatioOptions search_options(const Beat& beat) const;
     std::optional<EdgeForm> make_region_form(const Patch& patch, const Flow& flow) const;
     bool featureless() const;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <set>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -19,7 +20,7 @@ namespace {
 using mrc::Chord, mrc::ContourGraph, mrc::GraphPoint, mrc::Patch;
 
 /// A refined graph round a torus over a flow that rises in two steps of one half; in between it is flat but for noise.
-class FlatFlow : public testing::TestWithParam<std::tuple<int, int>> {
+class FlatFlow : public testing::TestWithParam<std::tuple<int, double>> {
   protected:
     const int steiner = std::get<0>(GetParam());
     const double noise = std::pow(10.0, std::get<1>(GetParam()));
@@ -28,15 +29,27 @@ class FlatFlow : public testing::TestWithParam<std::tuple<int, int>> {
     const mrc::Options options = narrow();
     const Patch patch = mrc::make_patch(surface, loop, options.width);
     const mrc::Band band = mrc::grow_band(surface, patch, options);
+    const ContourGraph graph = make_graph();
 
-    ContourGraph graph() const {
+    /// The corners of the band's triangles.
+    std::vector<std::array<int, 3>> triangles() const {
+        std::vector<std::array<int, 3>> triangles;
+        for (const auto face : patch.mesh.faces()) {
+            if (!band.face[face.idx()]) continue;
+            std::ranges::transform(patch.mesh.fv_range(face), triangles.emplace_back().begin(),
+                                   [&](auto v) { return patch.vertex[v.idx()]; });
+        }
+        return triangles;
+    }
+
+  private:
+    ContourGraph make_graph() const {
         const mrc::CurvatureField field(surface, 0.3, options);
         const mrc::Scales scales = mrc::contour_scales(surface, field, 0.3, loop, options);
         const mrc::Energy energy(surface, field, scales, options);
         return mrc::make_graph(surface, patch, band, flow(), energy, options, {}, steiner);
     }
 
-  private:
     static mrc::Options narrow() {
         mrc::Options options;
         options.width = 2;
@@ -64,15 +77,25 @@ double border_place(const std::array<int, 3>& corners, const mrc::SurfacePoint& 
     return -1.0;
 }
 
-/// The chords inside a triangle and along its sides, with their ends' places on its border, the lower first.
-using PlacedChords = std::vector<std::pair<int, std::array<double, 2>>>;
-
-PlacedChords chords_of(const ContourGraph& graph, const std::array<int, 3>& corners) {
+/// The graph's points on a triangle's border, with their places there.
+std::map<int, double> points_of(const ContourGraph& graph, const std::array<int, 3>& corners) {
     std::map<int, double> place;
     for (std::size_t p = 0; p < graph.points.size(); ++p) {
         const double at = border_place(corners, graph.points[p].place);
         if (at >= 0.0) place[static_cast<int>(p)] = at;
     }
+    return place;
+}
+
+bool on_one_side(double one, double other) {
+    const auto on = [](int side, double at) { return (side <= at && at <= side + 1.0) || (side == 2 && at == 0.0); };
+    return (on(0, one) && on(0, other)) || (on(1, one) && on(1, other)) || (on(2, one) && on(2, other));
+}
+
+/// The chords inside a triangle and along its sides, with their ends' places on its border, the lower first.
+using PlacedChords = std::vector<std::pair<int, std::array<double, 2>>>;
+
+PlacedChords chords_of(const ContourGraph& graph, const std::map<int, double>& place) {
     PlacedChords chords;
     for (std::size_t c = 0; c < graph.chords.size(); ++c) {
         const auto tail = place.find(graph.chords[c].tail), head = place.find(graph.chords[c].head);
@@ -99,13 +122,9 @@ bool may_follow(const ContourGraph& graph, const Chord& a, const Chord& b) {
 }
 
 TEST_P(FlatFlow, no_contour_can_hold_two_chords_that_cross) {
-    const ContourGraph graph = this->graph();
     int crossings = 0;
-    for (const auto face : patch.mesh.faces()) {
-        if (!band.face[face.idx()]) continue;
-        std::array<int, 3> corners{};
-        std::ranges::transform(patch.mesh.fv_range(face), corners.begin(), [&](auto v) { return patch.vertex[v.idx()]; });
-        const PlacedChords chords = chords_of(graph, corners);
+    for (const std::array<int, 3>& triangle : triangles()) {
+        const PlacedChords chords = chords_of(graph, points_of(graph, triangle));
         for (const auto& [a, of_a] : chords) {
             for (const auto& [b, of_b] : chords) {
                 if (!(of_a[0] < of_b[0] && of_b[0] < of_a[1] && of_a[1] < of_b[1])) continue;
@@ -118,7 +137,45 @@ TEST_P(FlatFlow, no_contour_can_hold_two_chords_that_cross) {
     EXPECT_GT(crossings, 1000);
 }
 
+TEST_P(FlatFlow, a_chord_is_level_or_rises_by_more_than_what_counts_as_level) {
+    constexpr double nearly = 1.0 - 1e-3;  // increments of 1e-12 have the rounding of the levels
+    for (const Chord& chord : graph.chords) {
+        if (chord.increment == 0.0) {
+            ASSERT_EQ(graph.points[chord.tail].level, graph.points[chord.head].level);
+        } else {
+            ASSERT_GE(chord.increment, nearly * 1e-12);
+        }
+    }
+    for (const std::array<int, 3>& triangle : triangles()) {
+        const std::map<int, double> place = points_of(graph, triangle);
+        for (const auto& [c, ends] : chords_of(graph, place)) {
+            const double rise = graph.chords[c].increment;
+            if (rise == 0.0 || !on_one_side(ends[0], ends[1])) continue;
+            ASSERT_GE(rise, nearly * 1e-9 / (steiner + 1));
+        }
+    }
+}
+
+TEST_P(FlatFlow, all_points_of_a_triangle_are_joined_but_on_one_side_and_at_one_rank) {
+    for (const std::array<int, 3>& triangle : triangles()) {
+        const std::map<int, double> place = points_of(graph, triangle);
+        ASSERT_EQ(static_cast<int>(place.size()), 3 + 3 * steiner);
+        std::set<std::pair<int, int>> joined;
+        for (const auto& [c, ends] : chords_of(graph, place))
+            joined.insert(std::minmax(graph.chords[c].tail, graph.chords[c].head));
+        for (const auto& [p, at_p] : place) {
+            for (const auto& [q, at_q] : place) {
+                if (p >= q || on_one_side(at_p, at_q)) continue;
+                const GraphPoint &one = graph.points[p], &other = graph.points[q];
+                const bool level_at_one_rank = one.level == other.level && std::abs(one.rank - other.rank) < 1e-9;
+                ASSERT_NE(joined.contains({p, q}), level_at_one_rank) << "points " << p << " and " << q;
+            }
+        }
+    }
+}
+
 // Far below, near and far above the increments that count as level.
-INSTANTIATE_TEST_SUITE_P(Noise, FlatFlow, testing::Combine(testing::Values(1, 2, 3), testing::Values(-15, -12, -10, -9, -8, -5)));
+INSTANTIATE_TEST_SUITE_P(Noise, FlatFlow,
+                         testing::Combine(testing::Values(1, 2, 3, 6), testing::Values(-12.0, -10.0, -9.0, -8.5, -8.0, -7.0)));
 
 }  // namespace

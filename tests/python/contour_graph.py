@@ -11,8 +11,10 @@ from itertools import pairwise
 from math import floor, inf
 
 import numpy as np
-from brute_force import LEVEL, Levels, edges_of, reaching, signed_ranks
+from brute_force import Levels, edges_of, reaching, signed_ranks
 from contour_energy import UNITS, edge_of, point_on, vertex
+
+LEVEL = 1e-12  # chords with increments below this are level, once vertices are
 
 
 def lower_left(sums):
