@@ -134,8 +134,9 @@ void Optimization::search(Partition* partition, int number, const Beat& beat) {
     const double before = feasible_ ? result_.objective : std::numeric_limits<double>::infinity();
     if (best.found) accept(trace_contour(graph, *patch_, best.nodes), region);
     searched_ |= best.found;
-    result_.lower_bound = best.found ? std::min(best.lower_bound, before) : before;
-    result_.gap = std::max(0.0, result_.objective - result_.lower_bound);
+    // The graph's objective and the measured one may differ by rounding.
+    result_.lower_bound = best.found ? std::min(best.lower_bound, result_.objective) : result_.objective;
+    result_.gap = result_.objective - result_.lower_bound;
     result_.history.push_back(result_.objective);
     explain(best);
     moved_ = below(result_.objective, before);

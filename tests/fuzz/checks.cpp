@@ -133,9 +133,8 @@ void check_result(const Surface& surface, const Contour& given, const Options& o
     if (result.status == Status::cancelled) return;
     require(!result.reason.empty() || result.status != Status::unchanged || options.iterations + options.regular_iterations == 0,
             "what is unchanged has a reason");
-    const double unit = std::max(std::abs(result.initial_objective), result.scales.K);
     if (result.status == Status::improved) require(result.objective < result.initial_objective, "improved is better than given");
-    require(result.lower_bound <= result.objective + 1e-9 * unit, "the bound is a bound");
+    require(result.lower_bound <= result.objective, "the bound is a bound");
     require(meets(result.contour, wishes), "required elements are passed");
     if (!wishes.region_density.empty()) return;  // what is enclosed counts from the contour as given
     const Measure measured = measure(surface, result.contour, options, wishes, &result.scales);
