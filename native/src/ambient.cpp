@@ -67,16 +67,16 @@ class Builder {
     /// Vertices are made level before points come between them, so that the flow stays linear in every triangle.
     void merge_vertices() {
         std::vector<int> edges;
-        std::vector<Segment> whole;
+        std::vector<Segment> uncut;
         for (int e = 0; e < static_cast<int>(patch_.mesh.n_edges()); ++e) {
             if (!used(e)) continue;
             edges.push_back(e);
-            whole.push_back({point(from(2 * e)), point(to(2 * e)), jump_[2 * e], -1, -1});
+            uncut.push_back({point(from(2 * e)), point(to(2 * e)), jump_[2 * e], -1, -1});
         }
-        merge_levels(ambient_.values, whole, level_vertices);
+        merge_levels(ambient_.values, uncut, level_vertices);
         for (std::size_t i = 0; i < edges.size(); ++i) {
-            jump_[2 * edges[i]] = whole[i].jump;
-            jump_[2 * edges[i] + 1] = -whole[i].jump;
+            jump_[2 * edges[i]] = uncut[i].jump;
+            jump_[2 * edges[i] + 1] = -uncut[i].jump;
         }
     }
 
