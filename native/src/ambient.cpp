@@ -17,8 +17,7 @@ struct LiftedPoint {
 
 class Builder {
   public:
-    Builder(const Patch& patch, const Band& band, const Flow& flow, int steiner)
-        : patch_(patch), band_(band), flow_(flow), jump_(flow.jump) {
+    Builder(const Patch& patch, const Band& band, const Flow& flow, int steiner) : patch_(patch), band_(band), flow_(flow) {
         ambient_.steiner = steiner;
     }
 
@@ -26,8 +25,8 @@ class Builder {
         const std::size_t k = ambient_.steiner, edges = std::ranges::count(band_.edge, 1),
                           faces = std::ranges::count(band_.face, 1);
         ambient_.segments.reserve(edges * (k + 1) + faces * 3 * k * (k + 1));
-        add_vertices();
         merge_vertices();
+        add_vertices();
         add_steiner_points();
         add_edge_segments();
         if (k > 0) {
@@ -40,17 +39,30 @@ class Builder {
   private:
     const Patch& patch_;
     const Band& band_;
-    const Flow& flow_;
-    std::vector<int> jump_;  // of the patch's half-edges, as the merged values have them
+    Flow flow_;
     AmbientGraph ambient_;
 
     int from(int h) const { return patch_.mesh.from_vertex_handle(Halfedge(h)).idx(); }
     int to(int h) const { return patch_.mesh.to_vertex_handle(Halfedge(h)).idx(); }
-    int point(int v) const { return ambient_.point_of_vertex[v]; }
-    double value(int v) const { return ambient_.values[point(v)]; }
     double rank(int v) const { return static_cast<double>(band_.side[v]) * patch_.distance[v]; }
     /// The regular graph never sees a diagonal; refined chords may cross one or run along it.
     bool used(int e) const { return band_.edge[e] && (ambient_.steiner > 0 || !patch_.diagonal[e]); }
+
+    /// Vertices are made level before points come between them, so that the flow stays linear in every triangle.
+    void merge_vertices() {
+        std::vector<int> edges;
+        std::vector<Segment> uncut;  // between patch vertices
+        for (int e = 0; e < static_cast<int>(patch_.mesh.n_edges()); ++e) {
+            if (!used(e)) continue;
+            edges.push_back(e);
+            uncut.push_back({from(2 * e), to(2 * e), flow_.jump[2 * e], -1, -1});
+        }
+        merge_levels(flow_.value, uncut, level_vertices);
+        for (std::size_t i = 0; i < edges.size(); ++i) {
+            flow_.jump[2 * edges[i]] = uncut[i].jump;
+            flow_.jump[2 * edges[i] + 1] = -uncut[i].jump;
+        }
+    }
 
     void add_vertices() {
         ambient_.point_of_vertex.assign(patch_.vertex.size(), -1);
@@ -64,22 +76,6 @@ class Builder {
         }
     }
 
-    /// Vertices are made level before points come between them, so that the flow stays linear in every triangle.
-    void merge_vertices() {
-        std::vector<int> edges;
-        std::vector<Segment> uncut;
-        for (int e = 0; e < static_cast<int>(patch_.mesh.n_edges()); ++e) {
-            if (!used(e)) continue;
-            edges.push_back(e);
-            uncut.push_back({point(from(2 * e)), point(to(2 * e)), jump_[2 * e], -1, -1});
-        }
-        merge_levels(ambient_.values, uncut, level_vertices);
-        for (std::size_t i = 0; i < edges.size(); ++i) {
-            jump_[2 * edges[i]] = uncut[i].jump;
-            jump_[2 * edges[i] + 1] = -uncut[i].jump;
-        }
-    }
-
     /// k equally spaced points on each edge, from half-edge 2 e's start to its end (3.2). The flow is linear along the edge.
     void add_steiner_points() {
         ambient_.first_point_of_edge.assign(patch_.mesh.n_edges(), -1);
@@ -87,12 +83,11 @@ class Builder {
             if (ambient_.steiner == 0 || !used(e)) continue;
             const int a = from(2 * e), b = to(2 * e);
             ambient_.first_point_of_edge[e] = static_cast<int>(ambient_.places.size());
-            const double start = value(a), increment = value(b) - start + jump_[2 * e];
             for (int i = 1; i <= ambient_.steiner; ++i) {
                 const double t = static_cast<double>(i) / (ambient_.steiner + 1);
                 ambient_.places.push_back({patch_.vertex[a], patch_.vertex[b], t});
                 ambient_.ranks.push_back((1.0 - t) * rank(a) + t * rank(b));
-                ambient_.values.push_back(start + t * increment);
+                ambient_.values.push_back(flow_.value[a] + t * flow_.increment(patch_.mesh, 2 * e));
             }
         }
     }
@@ -103,12 +98,12 @@ class Builder {
             if (!used(e)) continue;
             const int halfedge = patch_.halfedge[2 * e] >= 0 ? patch_.halfedge[2 * e] : patch_.halfedge[2 * e + 1];
             const bool walkable = !patch_.border_edge[e];
-            int last = point(from(2 * e));
+            int last = ambient_.point_of_vertex[from(2 * e)];
             for (int i = 0; i < ambient_.steiner; ++i) {
                 ambient_.segments.push_back({last, ambient_.first_point_of_edge[e] + i, 0, halfedge, -1, walkable});
                 last = ambient_.first_point_of_edge[e] + i;
             }
-            ambient_.segments.push_back({last, point(to(2 * e)), jump_[2 * e], halfedge, -1, walkable});
+            ambient_.segments.push_back({last, ambient_.point_of_vertex[to(2 * e)], flow_.jump[2 * e], halfedge, -1, walkable});
         }
     }
 
@@ -136,8 +131,8 @@ class Builder {
         auto h = patch_.mesh.halfedge_handle(PatchMesh::FaceHandle(f));
         int lift = 0;
         for (std::size_t i = 0; i < 3; ++i, h = patch_.mesh.next_halfedge_handle(h)) {
-            corners[i] = {point(from(h.idx())), lift};
-            const int next = lift + jump_[h.idx()];
+            corners[i] = {ambient_.point_of_vertex[from(h.idx())], lift};
+            const int next = lift + flow_.jump[h.idx()];
             const bool forward = h.idx() % 2 == 0;
             for (int s = 0; s < ambient_.steiner; ++s)
                 sides[i].push_back({ambient_.first_point_of_edge[h.idx() / 2] + s, forward ? lift : next});
