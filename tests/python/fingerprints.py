@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Prints a line for each of some 1,000 searches: what identical results alone have in common, to compare builds with.
+"""Prints a line for each of some 1,000 searches: equal where the results are the same to the last bit.
 
 python tests/python/fingerprints.py
 """
@@ -28,12 +28,12 @@ def random_options(rng):
 
 
 def bytes_of(result):
-    """Every number of a result, to the last bit."""
+    """Every number of a result, to the last bit, and its codes; no words, which may be reworded."""
     arrays = [result.positions, result.edge_vertices, result.edge_parameters, result.history]
     numbers = [result.ratio, result.objective, result.salience, result.lower_bound, result.gap]
     counts = [result.statistics[name] for name in ("faces", "cut", "nodes", "arcs", "linear_steps", "passes")]
     plain = [np.asarray(values).tobytes() for values in (*arrays, numbers, counts)]
-    return b"|".join([*plain, result.status.encode(), result.reason.encode()])
+    return b"|".join([*plain, result.status.encode(), result.reason_code.encode()])
 
 
 def fingerprint(surface, contours, closed, options):
@@ -45,7 +45,7 @@ def fingerprint(surface, contours, closed, options):
             results = mrc.optimize_all(surface, contours, closed=closed, options=chosen)
             content = b"/".join(map(bytes_of, results))
         except ValueError as error:
-            content = str(error).encode()
+            content = type(error).__name__.encode()
         found.add(hashlib.sha256(content).hexdigest()[:16])
     return " ".join(sorted(found)) + (" THREADS DIFFER" if len(found) > 1 else "")
 
