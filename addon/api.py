@@ -78,16 +78,16 @@ def optimize_seams(obj, selected_only=False, apply=False, merge=0.0, **settings)
 
 
 def optimize_segmentation(obj, source="FACE_SETS", attribute="", apply=False, merge=0.0, **settings):
-    """Optimizes the borders between the regions of a labelling; with apply the labels move with them.
+    """Optimizes the borders between the regions of a labeling; with apply the labels move with them.
 
     source: FACE_SETS, MATERIAL or ATTRIBUTE; an attribute's name alone is enough.
     Returns the native results, as optimize_seams does, takes the same settings, and cuts what runs across faces.
     """
     mesh_access.synchronize(obj)
-    labelling = segmentation.read_labelling(obj, "ATTRIBUTE" if attribute else source, attribute)
-    plan = _plan(obj, segmentation.read_network(obj, labelling), merge, settings)
+    labeling = segmentation.read_labeling(obj, "ATTRIBUTE" if attribute else source, attribute)
+    plan = _plan(obj, segmentation.read_network(obj, labeling), merge, settings)
     if apply and plan.changed:
-        segmentation.write(obj, labelling, network_cutting.cut(obj, plan, merge))
+        segmentation.write(obj, labeling, network_cutting.cut(obj, plan, merge))
         network_cutting.restore_normals(bpy.context, obj)
     return list(plan.taken_results().values())
 

@@ -107,11 +107,11 @@ def _face_attribute(obj, _, name):
 
 
 def _brightness(obj, arrays, name):
-    """The mean of red, green and blue, of a colour attribute on vertices or corners, in bytes or floats."""
+    """The mean of red, green and blue, of a color attribute on vertices or corners, in bytes or floats."""
     with columns.with_attributes(obj) as mesh:
         layer = mesh.color_attributes.get(name)
         if layer is None:
-            raise ValueError(report.no_layer("colour attribute", name))
+            raise ValueError(report.no_layer("color attribute", name))
         shown = "color_srgb" if layer.data_type == "BYTE_COLOR" else "color"  # as it is kept
         values = columns.values(layer.data, shown, np.float32, 4)[:, :3].mean(axis=1, dtype=float)
         at_corners = values[arrays.face_vertices] if layer.domain == "POINT" else values

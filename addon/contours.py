@@ -28,12 +28,12 @@ def sort_edges(edges):
     open_ended = np.setdiff1d(labels[degrees == 1], branching)
     closed = np.setdiff1d(labels, np.union1d(branching, open_ended))
 
-    neighbours = _neighbour_pairs(ends, degrees)
+    neighbors = _neighbor_pairs(ends, degrees)
     lowest_ends = [np.flatnonzero((labels == label) & (degrees == 1))[0] for label in open_ended]
     edge_labels = labels[ends[:, 0]]
     return SelectedContours(
-        loops=[vertices[_walk(neighbours, start)] for start in closed],
-        chains=[vertices[_walk(neighbours, start)] for start in lowest_ends],
+        loops=[vertices[_walk(neighbors, start)] for start in closed],
+        chains=[vertices[_walk(neighbors, start)] for start in lowest_ends],
         branching=[edges[edge_labels == label] for label in branching],
     )
 
@@ -135,20 +135,20 @@ def component_labels(ends, count):
     return labels
 
 
-def _neighbour_pairs(ends, degrees):
-    """The two neighbours of each vertex, lower first; -1 where there is no second. A third and more are left out."""
+def _neighbor_pairs(ends, degrees):
+    """The two neighbors of each vertex, lower first; -1 where there is no second. A third and more are left out."""
     tails, heads = ends.ravel(), ends[:, ::-1].ravel()
     heads = np.append(heads[np.lexsort((heads, tails))], -1)
     first = np.cumsum(degrees) - degrees
     return np.column_stack([heads[first], np.where(degrees > 1, heads[first + 1], -1)])
 
 
-def _walk(neighbours, start):
+def _walk(neighbors, start):
     """The vertices from start on, to the end of the chain or once round the loop."""
     path = [start]
     previous, current = -1, start
     while True:
-        one, other = neighbours[current]
+        one, other = neighbors[current]
         following = one if one != previous else other
         if following in (-1, start):
             return np.array(path)

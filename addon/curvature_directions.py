@@ -5,7 +5,7 @@ import numpy as np
 
 _NOTABLE = 0.25  # of the curvature that has the full color
 _FLAT = 1e-4  # over the edge length: smaller curvatures are rounding, as in the native module
-_LENGTH = 0.6  # of the edges round a vertex, so that the lines of neighbours do not touch
+_LENGTH = 0.6  # of the edges round a vertex, so that the lines of neighbors do not touch
 
 
 def segments(arrays, curvature, full):

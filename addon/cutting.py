@@ -156,7 +156,7 @@ class _Knife:
         return vertices
 
     def _real_bends(self, start, bends, end):
-        """Without those that lie on the straight line between their neighbours."""
+        """Without those that lie on the straight line between their neighbors."""
         points = [self.inner[bend.place] for bend in bends]
         kept, last = [], start
         for bend, point, following in zip(bends, points, [*points[1:], end]):

@@ -32,7 +32,7 @@ class MeshArrays:
 
     @cached_property
     def signed_volume(self):
-        """What the triangles enclose where they are closed: a sixth of the sum of their determinants about a centre."""
+        """What the triangles enclose where they are closed: a sixth of the sum of their determinants about a center."""
         axes = (self.positions - self.positions.mean(axis=0)).T.copy()
         parts = np.split(self.triangles, range(_AT_ONCE, len(self.triangles), _AT_ONCE))
         return sum(_determinants(axes, part.T) for part in parts) / 6

@@ -159,7 +159,7 @@ Where three regions meet they stay together, and no region is lost"""
     attribute: StringProperty(name="Attribute", description="The name of an integer attribute of the faces", default="")
 
     def _read_network(self, task):
-        task.about = segmentation.read_labelling(task.obj, self.source, self.attribute)
+        task.about = segmentation.read_labeling(task.obj, self.source, self.attribute)
         task.network = segmentation.read_network(task.obj, task.about)
 
     def _nothing(self):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Networks of contours: seams, and the borders between the regions of a labelling. Needs no Blender.
+"""Networks of contours: seams, and the borders between the regions of a labeling. Needs no Blender.
 
 A network falls into chains between its junctions, and closed loops. All of them move at once and keep apart; the faces
 that they bound before and after tell whether every region is still there, in one piece.

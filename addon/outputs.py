@@ -174,7 +174,7 @@ class _Cut:
         rims = bmesh.ops.split_edges(self.bm, edges=loops)["edges"]
         if self.wish.fill_holes:
             for face in bmesh.ops.holes_fill(self.bm, edges=rims, sides=0)["faces"]:
-                face.hide_set(False)  # it takes after a neighbour
+                face.hide_set(False)  # it takes after a neighbor
         self.edges = rims + bmesh.ops.split_edges(self.bm, edges=slits)["edges"]
 
 

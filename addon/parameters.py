@@ -185,13 +185,13 @@ CONSTRAINTS = {
             ("NONE", "None", "No region"),
             ("GROUP", "Vertex Group", "The weights of a vertex group"),
             ("ATTRIBUTE", "Face Attribute", "The values of a face attribute of floats, integers or booleans"),
-            ("COLOR", "Color", "The brightness of a colour attribute"),
+            ("COLOR", "Color", "The brightness of a color attribute"),
         ),
         "default": "NONE",
     },
     "region_layer": {
         "name": "Layer",
-        "description": "The name of the vertex group, face attribute or colour attribute",
+        "description": "The name of the vertex group, face attribute or color attribute",
         "default": "",
     },
     "region_strength": {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The borders between the regions of a labelling as a network of contours, and back to labels."""
+"""The borders between the regions of a labeling as a network of contours, and back to labels."""
 
 from dataclasses import dataclass, replace
 
@@ -18,14 +18,14 @@ class NoLabels(ValueError):
 
 
 @dataclass(frozen=True)
-class Labelling:
+class Labeling:
     """The labels of a mesh's faces, and where they stand: a face attribute's name, or None for the material slots."""
 
     attribute: str
     labels: np.ndarray
 
 
-def read_labelling(obj, source, attribute=""):
+def read_labeling(obj, source, attribute=""):
     """Raises NoLabels."""
     if source not in SOURCES:
         raise ValueError(f"the source is {source!r}; it must be one of {', '.join(SOURCES)}")
@@ -33,32 +33,32 @@ def read_labelling(obj, source, attribute=""):
     labels = mesh_access.read_labels(obj, name)
     if labels is None:
         raise NoLabels(report.no_face_sets() if source == "FACE_SETS" else report.no_attribute(attribute))
-    return Labelling(name, labels)
+    return Labeling(name, labels)
 
 
-def read_network(obj, labelling):
+def read_network(obj, labeling):
     """The borders between a synchronized mesh's regions.
 
     A region is one connected piece of one label.
     """
     topology = make_topology(**vars(mesh_access.read_edge_arrays(obj)))
-    return make_network(topology, label_borders(topology, labelling.labels))
+    return make_network(topology, label_borders(topology, labeling.labels))
 
 
-def new_labels(labelling, plan):
+def new_labels(labeling, plan):
     """The labels of all faces once the borders have moved: regions are named by a face that had their label before."""
-    return labelling.labels[plan.settlement.after]
+    return labeling.labels[plan.settlement.after]
 
 
-def write(obj, labelling, plan):
+def write(obj, labeling, plan):
     """Labels the faces anew; where contours were cut in, the pieces of a face come with the label of the whole."""
-    if len(labelling.labels) != plan.topology.face_count:
-        labelling = replace(labelling, labels=mesh_access.read_labels(obj, labelling.attribute))
-    labels = new_labels(labelling, plan)
-    changed = np.flatnonzero(labels != labelling.labels)
-    mesh_access.write_labels(obj.data, labelling.attribute, changed, labels[changed])
+    if len(labeling.labels) != plan.topology.face_count:
+        labeling = replace(labeling, labels=mesh_access.read_labels(obj, labeling.attribute))
+    labels = new_labels(labeling, plan)
+    changed = np.flatnonzero(labels != labeling.labels)
+    mesh_access.write_labels(obj.data, labeling.attribute, changed, labels[changed])
 
 
-def outcomes(place, labelling, plan):
+def outcomes(place, labeling, plan):
     """What became of each border that could have moved."""
-    return report.network_outcomes(place, plan, lambda region: report.lost_region(labelling.labels, region))
+    return report.network_outcomes(place, plan, lambda region: report.lost_region(labeling.labels, region))

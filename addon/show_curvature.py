@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shows what draws the contours: the least principal curvature as colours and as an attribute."""
+"""Shows what draws the contours: the least principal curvature as colors and as an attribute."""
 
 import bmesh
 import bpy

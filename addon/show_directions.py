@@ -9,7 +9,7 @@ import bpy
 from . import api, curvature_directions, mesh_access, native, report
 from .curvature_colors import full_size
 
-_QUANTILE = 0.95  # as the colours of the curvature
+_QUANTILE = 0.95  # as the colors of the curvature
 _QUIET = 0.3  # seconds without a change until the lines are made anew
 
 _shown = None  # the overlay, while there is one

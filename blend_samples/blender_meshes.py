@@ -82,15 +82,15 @@ def stored_mask(mesh, attribute):
 
 def ordered_loop(mesh, mask):
     """The vertices of the one closed loop that the marked edges form, in the add-on's order for selected edges."""
-    neighbours = {}
+    neighbors = {}
     for a, b in edge_pairs(mesh)[mask].tolist():
-        neighbours.setdefault(a, []).append(b)
-        neighbours.setdefault(b, []).append(a)
-    start = min(neighbours)
-    loop, last, here = [start], start, min(neighbours[start])
+        neighbors.setdefault(a, []).append(b)
+        neighbors.setdefault(b, []).append(a)
+    start = min(neighbors)
+    loop, last, here = [start], start, min(neighbors[start])
     while here != start:
         loop.append(here)
-        last, here = here, next(v for v in neighbours[here] if v != last)
+        last, here = here, next(v for v in neighbors[here] if v != last)
     return loop
 
 

@@ -8,7 +8,7 @@ LINE, SMALL_LINE, PAD = 30, 23, 8  # pixels
 
 
 def strip(width, words, spacing=LINE):
-    """Words are (line from the top, pixels from the left, text, colour); gives rows of pixels, from the bottom.
+    """Words are (line from the top, pixels from the left, text, color); gives rows of pixels, from the bottom.
     `spacing`: from line to line, in pixels; the letters go with it.
 
     Words too long for their room, up to the next on their line or to the border, are made smaller.
@@ -21,10 +21,10 @@ def strip(width, words, spacing=LINE):
     camera.data.type, camera.data.ortho_scale = "ORTHO", width
     camera.location = (width / 2, height / 2, 10)
     scene.camera = camera
-    for line, left, text, colour in words:
+    for line, left, text, color in words:
         data = bpy.data.curves.new("words", "FONT")
         data.body, data.size = text, 0.95 * spacing
-        data.materials.append(material("words", colour))
+        data.materials.append(material("words", color))
         placed = link(scene, "words", data)
         placed.location = (left, height - spacing * (line + 0.95), 0)
         scene.view_layers[0].update()  # for the dimensions

@@ -43,10 +43,10 @@ def hand():
 
 def select_roughly(obj):
     """A wavy loop a little above a finger's base."""
-    centres = np.array([face.center for face in obj.data.polygons])
+    centers = np.array([face.center for face in obj.data.polygons])
     base, axis = (np.array(vector) for vector in shapes.finger_axis(FINGER))
-    heights = (centres - base) @ axis - 0.45 * np.sin(3 * centres[:, 0] + 5 * centres[:, 1])
-    above = (shapes.parts_of_hand(centres) == FINGER) & (heights > 2.1)
+    heights = (centers - base) @ axis - 0.45 * np.sin(3 * centers[:, 0] + 5 * centers[:, 1])
+    above = (shapes.parts_of_hand(centers) == FINGER) & (heights > 2.1)
     corners = [loop for face in np.flatnonzero(above) for loop in obj.data.polygons[face].loop_indices]
     edges = blender_meshes.read(obj.data.loops, "edge_index", 1, np.int32)[corners]
     blender_meshes.select_edges(obj.data, np.bincount(edges, minlength=len(obj.data.edges)) == 1)

@@ -72,10 +72,10 @@ def grid_path(rows, columns, first=0, closed=True):
 
 
 def plane_loops(positions, faces, normal, offset):
-    """The jagged loops between the polygons whose centre lies above a plane (on their left) and the others. Loops that
+    """The jagged loops between the polygons whose center lies above a plane (on their left) and the others. Loops that
     touch themselves or each other are left out, and so are those on the mesh border."""
-    centres = np.array([positions[list(face)].mean(axis=0) for face in faces])
-    return border_loops(faces, centres @ np.asarray(normal, dtype=float) > offset)
+    centers = np.array([positions[list(face)].mean(axis=0) for face in faces])
+    return border_loops(faces, centers @ np.asarray(normal, dtype=float) > offset)
 
 
 def border_loops(faces, chosen):

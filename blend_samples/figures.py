@@ -195,9 +195,9 @@ def eyes():
         return 1.2 / (1 + np.exp(2 * away)) - 1.3 * valley(away, 1.1)
 
     positions, faces = relief(39, 61, height, (0.012, 0.02), np.random.default_rng(55))
-    centres = np.array([positions[list(face)].mean(axis=0) for face in faces])
-    inside = eye_distance(centres[:, 0], centres[:, 2], (EYE[0] + 1.0, 12.5)) < 0
-    left, right = (max(border_loops(faces, inside & (side * centres[:, 0] > 0)), key=len) for side in (-1, 1))
+    centers = np.array([positions[list(face)].mean(axis=0) for face in faces])
+    inside = eye_distance(centers[:, 0], centers[:, 2], (EYE[0] + 1.0, 12.5)) < 0
+    left, right = (max(border_loops(faces, inside & (side * centers[:, 0] > 0)), key=len) for side in (-1, 1))
     refined = {"width": 2, "regular_iterations": 5, "refinement": 1}
     searches = [Search(f"after {i}", left, {"width": 2, "iterations": i}) for i in range(1, 6)]
     searches += [Search("left, refined", left, refined), Search("right, refined", right, refined)]

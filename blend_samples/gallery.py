@@ -49,9 +49,9 @@ def character_printed(path, folder, api):
     parts = sorted((part for part in bpy.data.objects if part.type == "MESH"), key=_order)
     _check(len(parts) == len(ISLANDS), f"there are {len(parts)} parts")
     _check(all(_is_closed(part.data) for part in parts), "a part is open")
-    trunk = _centre(max(parts, key=lambda part: len(part.data.polygons)).data)
+    trunk = _center(max(parts, key=lambda part: len(part.data.polygons)).data)
     pieces = [
-        drawing.Piece(part.data, np.full(len(part.data.polygons), i), PARTS_MOVED * (_centre(part.data) - trunk))
+        drawing.Piece(part.data, np.full(len(part.data.polygons), i), PARTS_MOVED * (_center(part.data) - trunk))
         for i, part in enumerate(parts)
     ]
     one = np.zeros(len(whole.polygons), np.int32)
@@ -66,18 +66,18 @@ def hand_segmentation(path, folder, api):
     """A ragged segmentation by materials, cleaned by Optimize Segmentation."""
     ob = _opened(path)
     settings = {"width": 12, "reach": 0.3}
-    rough, colours = ob.data.copy(), list(shapes.PART_COLOURS.values())
+    rough, colors = ob.data.copy(), list(shapes.PART_COLORS.values())
     results = api.optimize_segmentation(ob, source="MATERIAL", **settings)
     _operate(bpy.ops.mesh.optimize_segmentation, source="MATERIAL", **settings)
     meshes = [rough, ob.data]
     labels = [blender_meshes.read(mesh.polygons, "material_index", 1, np.int32) for mesh in meshes]
-    true = shapes.parts_of_hand(blender_meshes.polygons(rough).centres())
-    right = [np.mean(np.array(list(shapes.PART_COLOURS))[part] == true) for part in labels]
+    true = shapes.parts_of_hand(blender_meshes.polygons(rough).centers())
+    right = [np.mean(np.array(list(shapes.PART_COLORS))[part] == true) for part in labels]
     _check(right[1] > right[0], f"of the faces {right[0]:.1%} were right before and {right[1]:.1%} after")
     borders = [_curves(mesh, _borders(mesh, part)) for mesh, part in zip(meshes, labels)]
     before = _panel(["Six materials, ragged", (f"{right[0]:.1%} of faces right", ORANGE)], rough, labels[0], borders[0])
     after = _panel(["Optimize Segmentation", (f"{right[1]:.1%} of faces right", BLUE)], ob.data, labels[1], borders[1])
-    drawing.draw_if_changed(folder / "hand_segmentation.png", colours, [before, after], (0.2, -1.0, 0.15))
+    drawing.draw_if_changed(folder / "hand_segmentation.png", colors, [before, after], (0.2, -1.0, 0.15))
     return _rows("hand_segmentation", "border", ob.data, settings, results)
 
 
@@ -113,9 +113,9 @@ def _ratios(results):
     return f"{moved} of {len(results)} moved"
 
 
-def _panel(words, mesh, colours, curves):
+def _panel(words, mesh, colors, curves):
     lines = [word if isinstance(word, tuple) else (word, BLACK) for word in words]
-    return drawing.Panel(lines, [drawing.Piece(mesh, colours)], curves)
+    return drawing.Panel(lines, [drawing.Piece(mesh, colors)], curves)
 
 
 def _seams(mesh):
@@ -172,22 +172,22 @@ def _islands(mesh, seams):
             break
         island = least
     names, number = np.unique(island, return_inverse=True)
-    centres = blender_meshes.polygons(mesh).centres()
-    places = [_place(centres[number == i].mean(axis=0)) for i in range(len(names))]
+    centers = blender_meshes.polygons(mesh).centers()
+    places = [_place(centers[number == i].mean(axis=0)) for i in range(len(names))]
     return np.argsort(sorted(range(len(names)), key=places.__getitem__))[number]
 
 
-def _place(centre):
+def _place(center):
     """What parts are sorted by: from the middle outwards in steps, so that twins stay together, then downwards."""
-    return round(4 * abs(centre[0])), -round(centre[2]), centre[0]
+    return round(4 * abs(center[0])), -round(center[2]), center[0]
 
 
 def _order(part):
-    return _place(_centre(part.data))
+    return _place(_center(part.data))
 
 
-def _centre(mesh):
-    return blender_meshes.polygons(mesh).centres().mean(axis=0)
+def _center(mesh):
+    return blender_meshes.polygons(mesh).centers().mean(axis=0)
 
 
 def _is_closed(mesh):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of coloured parts: several panels side by side, all seen from the same place."""
+"""Pictures of colored parts: several panels side by side, all seen from the same place."""
 
 from dataclasses import dataclass, field
 
@@ -20,10 +20,10 @@ INK = (0.05, 0.05, 0.06)
 
 @dataclass
 class Piece:
-    """A mesh with a colour for each face, drawn a little off its place."""
+    """A mesh with a color for each face, drawn a little off its place."""
 
     mesh: bpy.types.Mesh
-    colours: np.ndarray  # of each face its place in the picture's palette
+    colors: np.ndarray  # of each face its place in the picture's palette
     offset: tuple = (0.0, 0.0, 0.0)
 
     def positions(self):
@@ -32,7 +32,7 @@ class Piece:
 
 @dataclass
 class Panel:
-    words: list  # lines of text, each with its colour
+    words: list  # lines of text, each with its color
     pieces: list
     curves: list = field(default_factory=list)  # drawn in black
 
@@ -42,7 +42,7 @@ def draw_if_changed(path, palette, panels, towards, up=(0, 0, 1)):
     pieces = [piece for panel in panels for piece in panel.pieces]
     curves = [curve.points for panel in panels for curve in panel.curves]
     arrays = [blender_meshes.polygons(piece.mesh).vertices for piece in pieces] + curves
-    arrays += [array for piece in pieces for array in (piece.positions(), piece.colours)]
+    arrays += [array for piece in pieces for array in (piece.positions(), piece.colors)]
     made_of = stamps.stamp([*arrays, np.array(palette), np.array(towards)], [panel.words for panel in panels])
     stamps.draw_if_changed(path, made_of, lambda: draw(path, palette, panels, towards, up))
 
@@ -51,7 +51,7 @@ def draw(path, palette, panels, towards, up):
     with pictures.scratch():
         view, aspect = _common_view(panels, np.asarray(towards, float), up)
         size = (round(HEIGHT * aspect), HEIGHT)
-        materials = [images.material("part", colour) for colour in palette]
+        materials = [images.material("part", color) for color in palette]
         drawn = pictures.joined([_render(panel, view, size, materials) for panel in panels], axis=1)
         left = [i * (size[0] + pictures.GAP) + 8 for i in range(len(panels))]
         words = [(line, x, *word) for x, panel in zip(left, panels) for line, word in enumerate(panel.words)]
@@ -80,7 +80,7 @@ def _render(panel, view, size, materials):
         mesh.materials.clear()
         for material in materials:
             mesh.materials.append(material)
-        mesh.polygons.foreach_set("material_index", piece.colours.astype(np.int32))
+        mesh.polygons.foreach_set("material_index", piece.colors.astype(np.int32))
         images.link(scene, "piece", mesh).location = piece.offset
     for curve in panel.curves:
         pictures.tube(scene, curve, INK, 0.003 * view.width, lift=0.001 * view.width)

@@ -16,9 +16,9 @@ def link(scene, name, data):
     return ob
 
 
-def material(name, colour):
+def material(name, color):
     made = bpy.data.materials.new(name)
-    made.diffuse_color = (*colour, 1.0)
+    made.diffuse_color = (*color, 1.0)
     made.roughness = 0.6
     return made
 

@@ -84,7 +84,7 @@ def finger_cut(name):
 
 def finger_bases(mesh):
     """Where the fingers' cones leave the palm, by construction: the borders of the faces nearest to each cone."""
-    part = shapes.parts_of_hand(mesh.centres())
+    part = shapes.parts_of_hand(mesh.centers())
     return {name: border_loop(mesh, part == name, shapes.finger_point(name, 0.0)) for name in TILTS}
 
 

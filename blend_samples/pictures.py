@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures before and after: the surface grey, the faces searched green, given contours orange, contours found blue;
+"""Pictures before and after: the surface gray, the faces searched green, given contours orange, contours found blue;
 where one is known by construction, the contour that ought to be found black; vertices that it must hold purple."""
 
 from contextlib import contextmanager
@@ -20,7 +20,7 @@ SIZE, GAP = 700, 12  # pixels of one half, and between the halves
 OVERVIEW_SIZE = 344
 SHEET_COLUMNS = 3
 MARGIN, OVERVIEW_MARGIN = 2.0, 1.3  # width of what is shown, over that of the contours
-SHADES = 44  # of each colour in the overview, for a small file
+SHADES = 44  # of each color in the overview, for a small file
 GREY, GREEN = (0.85, 0.85, 0.83), (0.55, 0.86, 0.52)
 ORANGE, BLUE, BLACK, DARK_GREEN = (1.0, 0.13, 0.0), (0.0, 0.10, 1.0), (0.02, 0.02, 0.02), (0.10, 0.32, 0.09)
 PURPLE = (0.36, 0.0, 0.5)
@@ -68,7 +68,7 @@ def draw(path, ob, up, comparison):
 
 
 def _legend(comparison):
-    """What the colours mean, besides those of the words."""
+    """What the colors mean, besides those of the words."""
     parts = [f"{len(comparison.searched)} {comparison.legend}"]
     if comparison.truths:
         parts.append("true contour black" if len(comparison.truths) == 1 else "true contours black")
@@ -144,7 +144,7 @@ def scratch():
 
 def _halves(ob, up, comparison, size, margin):
     scene = bpy.data.scenes.new("picture")
-    mesh = _coloured_copy(scene, ob, comparison.searched)
+    mesh = _colored_copy(scene, ob, comparison.searched)
     given, found = comparison.given, comparison.found
     view = views.best_view(mesh, comparison.in_view or given + found, up, margin)
     set_up(scene, view, (size, size))
@@ -160,7 +160,7 @@ def _halves(ob, up, comparison, size, margin):
     return before, images.render(scene)
 
 
-def _coloured_copy(scene, ob, band):
+def _colored_copy(scene, ob, band):
     mesh = ob.data.copy()
     mesh.materials.clear()
     mesh.materials.append(images.material("surface", GREY))
@@ -186,11 +186,11 @@ def set_up(scene, view, size):
     scene.camera = camera
 
 
-def _tubes(scene, curves, colour, radius):
-    return [tube(scene, curve, colour, radius, lift=radius) for curve in curves]
+def _tubes(scene, curves, color, radius):
+    return [tube(scene, curve, color, radius, lift=radius) for curve in curves]
 
 
-def tube(scene, curve, colour, radius, lift):
+def tube(scene, curve, color, radius, lift):
     """A tube along a curve, lifted off the surface."""
     data = bpy.data.curves.new("contour", "CURVE")
     data.dimensions, data.bevel_depth, data.bevel_resolution = "3D", radius, 2
@@ -199,7 +199,7 @@ def tube(scene, curve, colour, radius, lift):
     lifted = np.concatenate([curve.points + lift * curve.normals, np.ones((len(curve.points), 1))], axis=1)
     spline.points.foreach_set("co", lifted.ravel())
     spline.use_cyclic_u = curve.closed
-    data.materials.append(images.material("contour", colour))
+    data.materials.append(images.material("contour", color))
     return images.link(scene, "contour", data)
 
 

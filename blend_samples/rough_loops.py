@@ -2,7 +2,7 @@
 """The written rule by which every sample gets its rough loops.
 
 A plane (a point within the limb and a normal, tilted as a hurried modeler would tilt it) parts the faces of a mesh by
-the side on which their centre lies. The edges between faces of different sides are closed, jagged loops; the rough loop
+the side on which their center lies. The edges between faces of different sides are closed, jagged loops; the rough loop
 is the one whose mean vertex is nearest to the plane's point. Where it touches itself at a vertex, the longest part
 between two visits is taken. Nothing else is chosen, and nothing by hand. This module knows NumPy alone.
 
@@ -38,7 +38,7 @@ class Polygons:
     offsets: np.ndarray
     vertices: np.ndarray
 
-    def centres(self):
+    def centers(self):
         counts = np.diff(self.offsets)
         return np.add.reduceat(self.positions[self.vertices], self.offsets[:-1]) / counts[:, None]
 
@@ -53,7 +53,7 @@ class Polygons:
 def rough_loop(mesh, cut):
     """Vertices, in order, of the closed loop nearest to the cut's plane and point."""
     point, normal = np.asarray(cut.point, float), np.asarray(cut.normal, float)
-    return border_loop(mesh, (mesh.centres() - point) @ normal > 0.0, point)
+    return border_loop(mesh, (mesh.centers() - point) @ normal > 0.0, point)
 
 
 def settings(mesh, cut, loop):

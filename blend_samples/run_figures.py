@@ -18,7 +18,7 @@ from curves import mean_distance
 from figures import FIGURES
 
 SHOWN = {"1.1": 3}  # of each figure's searches the one in the small picture, where it is not the last
-SMALL, SHADES = 160, 28  # of it: pixels of a half, and shades of each colour (the paper stays grey)
+SMALL, SHADES = 160, 28  # of it: pixels of a half, and shades of each color (the paper stays gray)
 
 
 def run(output, only, mrc):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The made samples' shapes, from Blender's own primitives, modifiers and metaballs. Lengths in centimetres, z up.
+"""The made samples' shapes, from Blender's own primitives, modifiers and metaballs. Lengths in centimeters, z up.
 
 Every function that makes a sample gives a new mesh object; `hand`'s fingers and `groove_cylinder`'s groove are known by
 construction, so that one can say where a contour ought to land.
@@ -39,7 +39,7 @@ BODY_BALLS = {
     "foot": ((1.7, -0.8, 0.65), (0.95, 1.75, 0.75)),
 }
 RAGGED = 0.9  # how far above a finger's base the rough segmentation ends, in the mean
-PART_COLOURS = {  # red, green, blue
+PART_COLORS = {  # red, green, blue
     "palm": (0.93, 0.84, 0.70),
     "index": (0.88, 0.20, 0.14),
     "middle": (1.0, 0.66, 0.08),
@@ -195,9 +195,9 @@ def hand_parts():
     ob.name = ob.data.name = "hand_parts"
     for name in ("palm", *FINGERS):
         ob.data.materials.append(bpy.data.materials.new(name))
-        ob.data.materials[-1].diffuse_color = (*PART_COLOURS[name], 1.0)
-    centres = np.array([face.center for face in ob.data.polygons])
-    ob.data.polygons.foreach_set("material_index", rough_labels(centres))
+        ob.data.materials[-1].diffuse_color = (*PART_COLORS[name], 1.0)
+    centers = np.array([face.center for face in ob.data.polygons])
+    ob.data.polygons.foreach_set("material_index", rough_labels(centers))
     return ob
 
 
@@ -252,7 +252,7 @@ def _even_profile(profile, step):
 
 
 def _lay_bricks(bm, around, rows):
-    """Joins two neighbouring quads of each row, shifted by one from row to row."""
+    """Joins two neighboring quads of each row, shifted by one from row to row."""
     bm.faces.ensure_lookup_table()
     pairs = [(row * around + i, row * around + (i + 1) % around) for row in rows for i in range(row % 2, around, 2)]
     pairs = [(bm.faces[a], bm.faces[b]) for a, b in pairs]

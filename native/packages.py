@@ -69,7 +69,7 @@ def build_extension(wheel, output, tool):
 
 
 def build_legacy(wheels, output):
-    """One folder with the add-on, the modules for all Pythons, the libraries that they need, and the licences."""
+    """One folder with the add-on, the modules for all Pythons, the libraries that they need, and the licenses."""
     package = output / package_name(wheels, "legacy")
     files = {"": b""} | {source.name: source.read_bytes() for source in ADDON.glob("*.py")}
     for wheel in wheels:
@@ -84,12 +84,12 @@ def build_legacy(wheels, output):
 
 
 def _library_files(wheel):
-    """What of a wheel belongs beside the add-on's Python: the module, the libraries grafted to it, the licences."""
+    """What of a wheel belongs beside the add-on's Python: the module, the libraries grafted to it, the licenses."""
     with ZipFile(wheel) as content:
         names = [name for name in content.namelist() if not name.endswith("/")]
         beside = {name: name for name in names if name.startswith(("mrcontour.", ".dylibs/"))}
-        licences = {name.rpartition("/")[2]: name for name in names if "/licenses/" in name}
-        return {target: content.read(name) for target, name in (beside | licences).items()}
+        licenses = {name.rpartition("/")[2]: name for name in names if "/licenses/" in name}
+        return {target: content.read(name) for target, name in (beside | licenses).items()}
 
 
 def _epoch():

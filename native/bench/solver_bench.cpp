@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The ratio stage beside its baselines on the same graphs: one bare pass, the thesis's search, a shared lambda without bounds, and
-// Karp's programme. Arguments: faces of the band, and k.
+// Karp's program. Arguments: faces of the band, and k.
 #include "cases.h"
 #include "karp_search.h"
 #include "thesis_search.h"

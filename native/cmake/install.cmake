@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# cmake --install BUILD [--prefix PREFIX]: the core library, its headers and licence, and what find_package(mrc) needs; no Python.
+# cmake --install BUILD [--prefix PREFIX]: the core library, its headers and license, and what find_package(mrc) needs; no Python.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 

@@ -259,7 +259,7 @@ void bind_functions(py::module_& module) {
         "measure", &measure, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true, defaults,
         py::arg("attractors") = nothing, py::arg("region_density") = py::none(), py::arg("scales") = py::none(),
         py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
-        "The ratio of a contour, without optimising (eq. 3.3). Arguments and errors are those of optimize; returns a Measure.");
+        "The ratio of a contour, without optimizing (eq. 3.3). Arguments and errors are those of optimize; returns a Measure.");
     module.def(
         "close_contour", &close_contour, py::arg("surface"), py::arg("vertices"), py::arg("progress") = py::none(),
         "Closes an open chain round the limb that it lies on, so that part of a loop drawn by hand is enough.\n\n"

@@ -116,7 +116,7 @@ void bind_measure(py::module_& module) {
                       "The sum of g over the arcs (eq. 3.1), in the mesh's unit (denominator 'arcs': their number).")
         .def_readonly(
             "objective", &mrc::Measure::objective,
-            "What is minimised: the ratio, or with a length bias ratio / K + length_bias max(length / L0, length_floor).");
+            "What is minimized: the ratio, or with a length bias ratio / K + length_bias max(length / L0, length_floor).");
 }
 
 template <class Value>
@@ -163,7 +163,7 @@ void bind_results(py::module_& module) {
         .def_property_readonly("initial_ratio", field(&mrc::Result::initial_ratio), "Of the given contour.")
         .def_property_readonly(
             "objective", field(&mrc::Result::objective),
-            "What is minimised, of the contour returned: the ratio, or with a length bias a number without unit.")
+            "What is minimized, of the contour returned: the ratio, or with a length bias a number without unit.")
         .def_property_readonly("initial_objective", field(&mrc::Result::initial_objective), "Of the given contour.")
         .def_property_readonly(
             "salience", field(&mrc::Result::salience),

@@ -15,8 +15,8 @@ std::vector<Eigen::AlignedBox3d> reaches(const Surface& surface, std::span<const
     std::vector<Eigen::AlignedBox3d> boxes;
     boxes.reserve(attractors.size());
     for (const Attractor& a : attractors) {
-        const Vec3 &centre = surface.position(a.vertex), reach = Vec3::Constant(slack * a.radius);
-        boxes.emplace_back(centre - reach, centre + reach);
+        const Vec3 &center = surface.position(a.vertex), reach = Vec3::Constant(slack * a.radius);
+        boxes.emplace_back(center - reach, center + reach);
     }
     return boxes;
 }

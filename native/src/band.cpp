@@ -151,14 +151,14 @@ class Grower {
         std::vector<Key> keys;
         for (int p = 0; p < patch_.polygon_count(); ++p) {
             double distance = 0.0;
-            PatchMesh::Point centre(0.0);
+            PatchMesh::Point center(0.0);
             for (const int h : sides_[p]) {
                 distance += patch_.distance[from(h)];
-                centre += mesh_.point(mesh_.from_vertex_handle(Halfedge(h)));
+                center += mesh_.point(mesh_.from_vertex_handle(Halfedge(h)));
             }
             const auto count = static_cast<double>(sides_[p].size());
             const double quantum = 1e-9 * length * count;
-            keys.emplace_back(std::round(distance / quantum), centre[0] / count, centre[1] / count, centre[2] / count, p);
+            keys.emplace_back(std::round(distance / quantum), center[0] / count, center[1] / count, center[2] / count, p);
         }
         std::ranges::sort(keys);
         rank_.resize(keys.size());
@@ -238,7 +238,7 @@ class Grower {
         });
     }
 
-    /// One round of dilation. A polygon that may not enter yet is tried again after each neighbour that does.
+    /// One round of dilation. A polygon that may not enter yet is tried again after each neighbor that does.
     bool grow_round(int round) {
         std::vector<char> eligible(patch_.polygon_count(), 0);
         using Entry = std::pair<int, int>;  // rank, polygon
@@ -259,8 +259,8 @@ class Grower {
             enter(polygon, chain, round);
             grown = true;
             for (const int h : sides_[polygon]) {
-                const int neighbour = polygon_of(opposite(h));
-                if (neighbour >= 0 && eligible[neighbour] && !polygon_in_[neighbour]) queue.emplace(rank_[neighbour], neighbour);
+                const int neighbor = polygon_of(opposite(h));
+                if (neighbor >= 0 && eligible[neighbor] && !polygon_in_[neighbor]) queue.emplace(rank_[neighbor], neighbor);
             }
         }
         return grown;

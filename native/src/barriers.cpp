@@ -74,8 +74,8 @@ class BarrierCheck {
     }
     bool is_barrier(int a, int b) const { return barriers_.contains({std::min(a, b), std::max(a, b)}); }
 
-    /// The neighbour of point i, `step` points on; null beyond the ends of an open curve.
-    const SurfacePoint* neighbour(int i, int step) const {
+    /// The neighbor of point i, `step` points on; null beyond the ends of an open curve.
+    const SurfacePoint* neighbor(int i, int step) const {
         const int count = static_cast<int>(contour_.points.size()), j = i + step;
         if (!contour_.closed && (j < 0 || j >= count)) return nullptr;
         return &contour_.points[(j + count) % count];
@@ -83,7 +83,7 @@ class BarrierCheck {
 
     /// True where the segment behind point i lies on a barrier.
     bool along(int i) const {
-        const SurfacePoint* next = neighbour(i, 1);
+        const SurfacePoint* next = neighbor(i, 1);
         if (!next) return false;
         const SharedEdge edge(contour_.points[i], *next);
         return edge.a >= 0 && is_barrier(edge.a, edge.b);
@@ -99,7 +99,7 @@ class BarrierCheck {
     }
 
     Sides sides_at(int i) const {
-        const SurfacePoint *last = neighbour(i, -1), *next = neighbour(i, 1);
+        const SurfacePoint *last = neighbor(i, -1), *next = neighbor(i, 1);
         if (!last || !next) return {};
         const SurfacePoint& here = contour_.points[i];
         if (here.is_vertex()) return sides_at_vertex(here.a, *last, *next);

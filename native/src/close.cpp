@@ -41,24 +41,24 @@ struct Limb {
     Vec3 axis;                  ///< the way that the limb goes
 };
 
-Eigen::Matrix3d normalised_trace(const Eigen::Matrix3d& m) { return m.trace() > 0.0 ? Eigen::Matrix3d(m / m.trace()) : m; }
+Eigen::Matrix3d normalized_trace(const Eigen::Matrix3d& m) { return m.trace() > 0.0 ? Eigen::Matrix3d(m / m.trace()) : m; }
 
 /// The direction that is most nearly square to both the chain's extent and its normals.
 Vec3 limb_axis(const Surface& surface, const std::vector<int>& chain, const std::vector<double>& weights) {
-    Vec3 centre = Vec3::Zero();
+    Vec3 center = Vec3::Zero();
     double total = 0.0;
     for (std::size_t i = 0; i < chain.size(); ++i) {
-        centre += weights[i] * surface.position(chain[i]);
+        center += weights[i] * surface.position(chain[i]);
         total += weights[i];
     }
-    if (total > 0.0) centre /= total;
+    if (total > 0.0) center /= total;
     Eigen::Matrix3d extent = Eigen::Matrix3d::Zero(), facing = Eigen::Matrix3d::Zero();
     for (std::size_t i = 0; i < chain.size(); ++i) {
-        const Vec3 offset = surface.position(chain[i]) - centre, normal = vertex_normal(surface, chain[i]);
+        const Vec3 offset = surface.position(chain[i]) - center, normal = vertex_normal(surface, chain[i]);
         extent += weights[i] * offset * offset.transpose();
         facing += weights[i] * normal * normal.transpose();
     }
-    const Eigen::Matrix3d sum = normalised_trace(extent) + normalised_trace(facing);
+    const Eigen::Matrix3d sum = normalized_trace(extent) + normalized_trace(facing);
     return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum).eigenvectors().col(0);
 }
 
@@ -115,7 +115,7 @@ class ClosingSearch {
             if (std::exchange(place.settled, true)) continue;
             watch_.beat(static_cast<double>(settled_++) / surface_.vertex_count());
             if (vertex == goal) return path_to(place.previous);
-            surface_.for_each_real_edge(vertex, [&](int neighbour, int) { relax(vertex, neighbour, entry.first); });
+            surface_.for_each_real_edge(vertex, [&](int neighbor, int) { relax(vertex, neighbor, entry.first); });
         }
         throw InvalidInput("nothing leads from vertex " + std::to_string(start) + ", one end of the chain, round to vertex " +
                            std::to_string(goal) +

@@ -22,10 +22,10 @@ int label(const Surface& surface, std::vector<int>& component) {
         for (stack.assign(1, seed); !stack.empty();) {
             const int v = stack.back();
             stack.pop_back();
-            surface.for_each_real_edge(v, [&](int neighbour, int) {
-                if (component[neighbour] >= 0) return;
-                component[neighbour] = count;
-                stack.push_back(neighbour);
+            surface.for_each_real_edge(v, [&](int neighbor, int) {
+                if (component[neighbor] >= 0) return;
+                component[neighbor] = count;
+                stack.push_back(neighbor);
             });
         }
         ++count;
@@ -48,15 +48,15 @@ void for_each_face(const Surface& surface, const std::vector<int>& component, Vi
 
 void Surface::Components::make(const Surface& surface) {
     std::vector<Sums> sums(label(surface, component));
-    for_each_face(surface, component, [&](int i, double area, const Vec3& centre) {
+    for_each_face(surface, component, [&](int i, double area, const Vec3& center) {
         sums[i].area += area;
-        sums[i].centroid += area * centre;
+        sums[i].centroid += area * center;
     });
     for (Sums& s : sums) {
         if (s.area > 0.0) s.centroid /= s.area;
     }
     for_each_face(surface, component,
-                  [&](int i, double area, const Vec3& centre) { sums[i].distance += area * (centre - sums[i].centroid).norm(); });
+                  [&](int i, double area, const Vec3& center) { sums[i].distance += area * (center - sums[i].centroid).norm(); });
     for (const Sums& s : sums) radius.push_back(s.area > 0.0 ? s.distance / s.area : 0.0);
 }
 

@@ -97,8 +97,8 @@ class NearGraph {
         if (first_link_[n] >= 0) return;
         const int begin = static_cast<int>(links_.size());
         const Vec3& here = surface_.position(vertices_[n]);
-        surface_.for_each_real_edge(vertices_[n], [&](int neighbour, int) {
-            links_.push_back({number(neighbour), (surface_.position(neighbour) - here).norm()});
+        surface_.for_each_real_edge(vertices_[n], [&](int neighbor, int) {
+            links_.push_back({number(neighbor), (surface_.position(neighbor) - here).norm()});
         });
         links_.push_back({-1, 0.0});
         first_link_[n] = begin;
@@ -148,7 +148,7 @@ class NearSearch {
     };
     std::vector<Node> nodes_;
     int search_ = 0;
-    std::vector<int> near_, queue_;  // all vertices met, and those whose neighbours are to be reached
+    std::vector<int> near_, queue_;  // all vertices met, and those whose neighbors are to be reached
 
     void make_room(const NearGraph& graph) {
         if (static_cast<int>(nodes_.size()) < graph.size()) nodes_.resize(2 * graph.size());
@@ -174,7 +174,7 @@ class CurvatureField::Impl {
         : surface_(surface),
           radius_(options.curvature_radius * h),
           sigma_(options.curvature_smoothing * h),
-          limit_(3.0 * sigma_ * (1.0 + 1e-9)),  // on grids neighbours lie at just 3 sigma: rounding must not decide
+          limit_(3.0 * sigma_ * (1.0 + 1e-9)),  // on grids neighbors lie at just 3 sigma: rounding must not decide
           negligible_(1e-4 / h),
           near_(surface),
           disks_(surface, radius_) {}

@@ -43,7 +43,7 @@ void DiskTensors::reserve(int vertices) {
 }
 
 Symmetric DiskTensors::at(int vertex) {
-    const Vec3& centre = surface_->position(vertex);
+    const Vec3& center = surface_->position(vertex);
     ++disk_count_;
     disk_.clear();
     for (const int h : surface_->outgoing(vertex)) meet(triangle_number(h / 3));
@@ -53,12 +53,12 @@ Symmetric DiskTensors::at(int vertex) {
         bool whole = true;
         for (int side = 0; side < 3; ++side) {
             const int edge = triangles_[disk_[i]].edges[side];
-            const bool met = cut(edge, centre, sum);
+            const bool met = cut(edge, center, sum);
             whole &= met && spans_[edge].enter == 0.0 && spans_[edge].leave == 1.0;
             if (!met) continue;
-            if (const int next = neighbour(disk_[i], side); next != none) meet(next);
+            if (const int next = neighbor(disk_[i], side); next != none) meet(next);
         }
-        area += whole ? 0.5 * triangles_[disk_[i]].doubled_area : area_inside(triangles_[disk_[i]], centre);
+        area += whole ? 0.5 * triangles_[disk_[i]].doubled_area : area_inside(triangles_[disk_[i]], center);
     }
     if (area > 0.0) sum /= area;
     return sum;
@@ -71,12 +71,12 @@ void DiskTensors::meet(int number) {
 }
 
 /// Cuts the edge with the ball, and adds what it bends inside when it is met for the first time. False where it stays outside.
-bool DiskTensors::cut(int edge, const Vec3& centre, Symmetric& sum) {
+bool DiskTensors::cut(int edge, const Vec3& center, Symmetric& sum) {
     Span& span = spans_[edge];
     if (span.disk == disk_count_) return span.leave > span.enter;
     const Edge& e = edges_[edge];
     span = {disk_count_, 0.0, 0.0};
-    const Vec3 start = e.start - centre;
+    const Vec3 start = e.start - center;
     const double along = start.dot(e.way), start2 = start.squaredNorm(), radius2 = radius_ * radius_;
     if (start2 <= radius2 && start2 + 2.0 * along + e.length2 <= radius2 && e.length2 > 0.0) {  // most edges lie inside altogether
         span.leave = 1.0;
@@ -96,9 +96,9 @@ bool DiskTensors::cut(int edge, const Vec3& centre, Symmetric& sum) {
 
 /// The area of the triangle inside the ball: straight pieces of its sides, and arcs of the circle in its plane that join them, all
 /// turning left round the area.
-double DiskTensors::area_inside(const Triangle& t, const Vec3& centre) const {
+double DiskTensors::area_inside(const Triangle& t, const Vec3& center) const {
     if (t.doubled_area == 0.0) return 0.0;
-    const Vec3 away = centre - t.origin;
+    const Vec3 away = center - t.origin;
     const double height = away.dot(t.normal);
     const double radius2 = radius_ * radius_ - height * height;
     if (radius2 <= 0.0) return 0.0;
@@ -155,7 +155,7 @@ int DiskTensors::triangle_number(int triangle) {
         t.second = {p.norm(), 0.0};
         t.third = {q.dot(t.x), q.dot(t.y)};
     }
-    t.neighbours.fill(unknown);
+    t.neighbors.fill(unknown);
     triangles_.push_back(t);
     met_.push_back(0);
     for (int side = 0; side < 3; ++side) {
@@ -166,13 +166,13 @@ int DiskTensors::triangle_number(int triangle) {
     return number;
 }
 
-int DiskTensors::neighbour(int number, int side) {
-    if (triangles_[number].neighbours[side] == unknown) {
+int DiskTensors::neighbor(int number, int side) {
+    if (triangles_[number].neighbors[side] == unknown) {
         const int twin = surface_->twin(3 * triangles_[number].id + side);
         const int next = twin < 0 ? none : triangle_number(twin / 3);
-        triangles_[number].neighbours[side] = next;
+        triangles_[number].neighbors[side] = next;
     }
-    return triangles_[number].neighbours[side];
+    return triangles_[number].neighbors[side];
 }
 
 int DiskTensors::edge_number(int halfedge) {

@@ -24,7 +24,7 @@ inline Eigen::Matrix3d full(const Symmetric& s) {
 /// The curvature tensor of eq. 3.4 at single vertices: F = 1 / |B| sum beta(e) |e in B| e e^T, with B the disk about the vertex.
 ///
 /// The disk is what hangs together with the vertex along the surface inside a ball, so that the other side of a thin plate stays
-/// out. What belongs to an edge or to a triangle alone is kept, since the disks of neighbours overlap.
+/// out. What belongs to an edge or to a triangle alone is kept, since the disks of neighbors overlap.
 class DiskTensors {
   public:
     DiskTensors(const Surface& surface, double radius) : surface_(&surface), radius_(radius) {}
@@ -49,8 +49,8 @@ class DiskTensors {
         Vec3 origin, x, y, normal;  // its own frame, in its first corner
         Vec2 second, third;         // the other corners in it
         double doubled_area;
-        std::array<int, 3> edges, neighbours;  // numbers; a neighbour not yet met is `unknown`
-        std::array<bool, 3> forward;           // whether the side runs along with its edge
+        std::array<int, 3> edges, neighbors;  // numbers; a neighbor not yet met is `unknown`
+        std::array<bool, 3> forward;          // whether the side runs along with its edge
     };
     /// The part of an edge inside the ball under way, as shares of its way; empty where enter = leave.
     struct Span {
@@ -71,11 +71,11 @@ class DiskTensors {
 
     int edge_number(int halfedge);
     int triangle_number(int triangle);
-    int neighbour(int number, int side);
+    int neighbor(int number, int side);
     double angle_at(int halfedge) const;
     void meet(int number);
-    bool cut(int edge, const Vec3& centre, Symmetric& sum);
-    double area_inside(const Triangle& triangle, const Vec3& centre) const;
+    bool cut(int edge, const Vec3& center, Symmetric& sum);
+    double area_inside(const Triangle& triangle, const Vec3& center) const;
 };
 
 }  // namespace mrc

@@ -28,8 +28,8 @@ bool DistanceField::settle_next() const {
         queue_.pop();
         if (!settled_.insert(vertex).second) continue;
         const int point = best_.at(vertex).point;
-        surface_.for_each_real_edge(vertex, [&](int neighbour, int) {
-            reach(neighbour, {distance + (surface_.position(neighbour) - surface_.position(vertex)).norm(), point});
+        surface_.for_each_real_edge(vertex, [&](int neighbor, int) {
+            reach(neighbor, {distance + (surface_.position(neighbor) - surface_.position(vertex)).norm(), point});
         });
         return true;
     }
@@ -65,8 +65,8 @@ std::vector<int> vertices_within(const Surface& surface, std::span<const int> ve
     for (std::size_t begin = 0; rings > 0; --rings) {
         const std::size_t end = found.size();
         for (; begin < end; ++begin) {
-            surface.for_each_real_edge(found[begin], [&](int neighbour, int) {
-                if (seen.insert(neighbour).second) found.push_back(neighbour);
+            surface.for_each_real_edge(found[begin], [&](int neighbor, int) {
+                if (seen.insert(neighbor).second) found.push_back(neighbor);
             });
         }
     }

@@ -105,7 +105,7 @@ std::vector<int> snapped_chain(const Surface& surface, const Contour& contour, S
 
 }  // namespace
 
-Contour normalised(const Contour& contour) {
+Contour normalized(const Contour& contour) {
     Contour result = contour;
     for (SurfacePoint& p : result.points) {
         if (p.a == p.b || p.t == 0.0) p = vertex_point(p.a);

@@ -13,7 +13,7 @@ namespace mrc {
 std::vector<int> guide_vertices(const Surface& surface, const Contour& contour);
 
 /// The same contour with t = 0 and t = 1 written as vertices.
-Contour normalised(const Contour& contour);
+Contour normalized(const Contour& contour);
 
 /// The edge that holds both points, from a to b; a < 0: there is none.
 struct SharedEdge {

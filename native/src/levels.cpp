@@ -67,7 +67,7 @@ void merge_classes(LiftedClasses& classes, std::vector<double>& values, std::vec
 }  // namespace
 
 void merge_levels(std::vector<double>& values, std::vector<Segment>& segments, double tolerance) {
-    // A mean lies away from the values that it replaces, and so may come near to a neighbour's.
+    // A mean lies away from the values that it replaces, and so may come near to a neighbor's.
     for (bool merged = true; merged;) {
         merged = false;
         LiftedClasses classes(values.size());

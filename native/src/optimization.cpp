@@ -89,7 +89,7 @@ void Optimization::cut_out() {
     ++result_.statistics.iterations;
     moving_ = moved_ = false;
     patch_.reset();
-    if (has_neighbour_along_edges(surface_, result_.contour)) {
+    if (has_neighbor_along_edges(surface_, result_.contour)) {
         patch_ = stopwatch_.time("patch", [&] { return make_patch(surface_, result_.contour, phase_options_.width); });
     } else if (result_.status == Status::unchanged) {
         because(Reason::no_neighbour, no_neighbour);

@@ -67,7 +67,7 @@ class Optimization {
     bool moving() const { return moving_; }
     /// The last iteration moved it.
     bool moved() const { return moved_; }
-    /// Where it settled, it sets off again once a neighbour that kept it back has moved.
+    /// Where it settled, it sets off again once a neighbor that kept it back has moved.
     void wake() { moving_ = !featureless(); }
     const Contour& given() const { return given_; }
     const Contour& current() const { return result_.contour; }

@@ -135,7 +135,7 @@ class Company {
         report(2);
         const Beat beat = [&] { watch_.beat(); };
         for_each_active([&](Optimization& contour, int i) { contour.search(partition, i, beat); });
-        wake_neighbours(active);
+        wake_neighbors(active);
         return std::ranges::any_of(contours_, [](const auto& contour) { return contour->moving(); });
     }
 
@@ -158,7 +158,7 @@ class Company {
     }
 
     /// A contour that has settled sets off again where one that kept it back has moved.
-    void wake_neighbours(const std::vector<char>& active) {
+    void wake_neighbors(const std::vector<char>& active) {
         std::vector<char> moved;
         for (int i = 0; i < count(); ++i) moved.push_back(active[i] && contours_[i]->moved());
         for (const auto& contour : contours_) {

@@ -249,7 +249,7 @@ class PatchBuilder {
             const auto& corners = surface_.triangle(t);
             const auto handle = [&](int c) { return PatchMesh::VertexHandle(local_vertex(corners[c])); };
             const auto added = patch_.mesh.add_face(handle(0), handle(1), handle(2));
-            if (!added.is_valid()) throw std::logic_error("patch: face " + std::to_string(face) + " does not fit its neighbours");
+            if (!added.is_valid()) throw std::logic_error("patch: face " + std::to_string(face) + " does not fit its neighbors");
             patch_.polygon.push_back(polygon);
             triangle_.push_back(t);
         }
@@ -288,7 +288,7 @@ class PatchBuilder {
 
 Contour checked_contour(const Surface& surface, const Contour& contour) {
     for (const SurfacePoint& p : contour.points) check_point(surface, p);
-    Contour checked = normalised(contour);
+    Contour checked = normalized(contour);
     check_distinct(checked);
     std::vector<Crossing> crossings;
     const std::size_t count = checked.points.size();
@@ -299,7 +299,7 @@ Contour checked_contour(const Surface& surface, const Contour& contour) {
     return checked;
 }
 
-bool has_neighbour_along_edges(const Surface& surface, const Contour& contour) {
+bool has_neighbor_along_edges(const Surface& surface, const Contour& contour) {
     const std::vector<int> guide = guide_vertices(surface, contour);
     const std::size_t count = guide.size();
     for (std::size_t i = 0; i + (contour.closed ? 0 : 1) < count; ++i) {
@@ -309,7 +309,7 @@ bool has_neighbour_along_edges(const Surface& surface, const Contour& contour) {
 }
 
 Patch make_patch(const Surface& surface, const Contour& contour, std::optional<int> rings) {
-    if (!has_neighbour_along_edges(surface, contour)) {
+    if (!has_neighbor_along_edges(surface, contour)) {
         throw InvalidInput("no simple contour along mesh edges lies beside the given one, so that no band can grow from it");
     }
     PatchBuilder builder(surface, contour);

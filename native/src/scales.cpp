@@ -46,8 +46,8 @@ double mean_edge_length(const Surface& surface, const Contour& contour) {
     const std::unordered_set<int> inside(near.begin(), near.end());
     std::vector<std::pair<int, double>> lengths;  // by edge, so that each counts once
     for (const int v : near) {
-        surface.for_each_real_edge(v, [&](int neighbour, int edge) {
-            if (inside.contains(neighbour)) lengths.emplace_back(edge, (surface.position(neighbour) - surface.position(v)).norm());
+        surface.for_each_real_edge(v, [&](int neighbor, int edge) {
+            if (inside.contains(neighbor)) lengths.emplace_back(edge, (surface.position(neighbor) - surface.position(v)).norm());
         });
     }
     std::ranges::sort(lengths);

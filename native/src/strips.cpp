@@ -17,8 +17,8 @@ PatchMesh::HalfedgeHandle opposite(int h) { return PatchMesh::HalfedgeHandle(h ^
 /// touches, and, where it swallows a vertex, only in the layer after the one in which that vertex came. By the first rule each
 /// polygon meets what it met when the band grew, so every layer ends in a simple curve, and that curve encloses the one before;
 /// by the second every vertex is on such a curve. A new round opens a new layer, so the boundaries of the rounds are among them.
-/// An edge cannot cross a curve of edges and no vertex lies between two neighbouring strips: hence the ends of every edge are on
-/// the same strip or on neighbouring ones. Around an open curve all strips run from its first vertex to its last.
+/// An edge cannot cross a curve of edges and no vertex lies between two neighboring strips: hence the ends of every edge are on
+/// the same strip or on neighboring ones. Around an open curve all strips run from its first vertex to its last.
 class SideReplay {
   public:
     /// `curves`: the boundary after each round, running so that the side lies to the left; the first is the contour.

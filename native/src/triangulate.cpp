@@ -89,7 +89,7 @@ void Triangulator::clip_ears(const Vec3& normal, std::span<const Vec3> corners) 
             clip(corner);
             --left;
             refused = 0;
-            corner = next_[corner];  // the ear's neighbour is passed over once: less slender than a fan
+            corner = next_[corner];  // the ear's neighbor is passed over once: less slender than a fan
         } else {
             ++refused;
         }
@@ -192,7 +192,7 @@ bool PolygonSides::holds(std::span<const int> polygon, int vertex) const {
 }
 
 bool PolygonSides::pair_diagonals(std::span<const int> polygon) {
-    // Sorted, the two half-edges of a diagonal are neighbours. A diagonal that occurs more often fails here as well: its first two
+    // Sorted, the two half-edges of a diagonal are neighbors. A diagonal that occurs more often fails here as well: its first two
     // run in the same direction, as they are sorted by that next.
     std::ranges::sort(diagonals_, {}, [](const Diagonal& d) { return std::tuple(d.low, d.high, d.rising); });
     for (size_t i = 0; i < diagonals_.size(); i += 2) {

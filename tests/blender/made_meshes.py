@@ -169,7 +169,7 @@ def ids(element):
 
 
 def layers(bm):
-    """The contents of every layer, by element kind, layer kind and name; UV and colour as tuples."""
+    """The contents of every layer, by element kind, layer kind and name; UV and color as tuples."""
     found = {}
     corners = [corner for face in bm.faces for corner in face.loops]
     for kind, layer_sets, elements in (

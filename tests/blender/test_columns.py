@@ -79,7 +79,7 @@ def test_reading_leaves_no_mesh_behind():
 
 @pytest.mark.parametrize("domain", ["POINT", "CORNER"])
 @pytest.mark.parametrize("mode", ["EDIT", "OBJECT"])
-def test_brightness_is_the_mean_of_a_faces_colours_as_they_are_kept(domain, mode):
+def test_brightness_is_the_mean_of_a_faces_colors_as_they_are_kept(domain, mode):
     obj = grooved_cylinder()
     layer = obj.data.color_attributes.new("Layer", "BYTE_COLOR", domain)
     layer.data.foreach_set("color", np.random.default_rng(7).random(4 * len(layer.data)).astype(np.float32))

@@ -201,12 +201,12 @@ def face_data(obj, face):
 def test_faces_keep_what_is_theirs():
     obj = rough_plate(3)
     add_attributes(obj, linear)
-    by_centre = face_numbers(obj)
+    by_center = face_numbers(obj)
     cut_mesh(obj, some_contours(obj, 3))
-    for centre, number in face_numbers(obj):
-        nearest = min(by_centre, key=lambda known: np.linalg.norm(known[0] - centre))
-        assert number in {value for _, value in by_centre}
-        if np.linalg.norm(nearest[0] - centre) < 1e-9:
+    for center, number in face_numbers(obj):
+        nearest = min(by_center, key=lambda known: np.linalg.norm(known[0] - center))
+        assert number in {value for _, value in by_center}
+        if np.linalg.norm(nearest[0] - center) < 1e-9:
             assert number == nearest[1]
 
 

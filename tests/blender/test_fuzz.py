@@ -149,8 +149,8 @@ def some(elements, rng):
 
 def blob(bm, rng, size):
     """The faces round one, nearest first; about as many as asked for."""
-    centre = np.array(some(bm.faces, rng).calc_center_median())
-    by_distance = sorted(bm.faces, key=lambda face: np.sum((np.array(face.calc_center_median()) - centre) ** 2))
+    center = np.array(some(bm.faces, rng).calc_center_median())
+    by_distance = sorted(bm.faces, key=lambda face: np.sum((np.array(face.calc_center_median()) - center) ** 2))
     return by_distance[: int(size * rng.uniform(0.8, 1.2))]
 
 

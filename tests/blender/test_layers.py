@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Constraints from a mesh's layers: vertex groups, marked edges, face attributes, colours."""
+"""Constraints from a mesh's layers: vertex groups, marked edges, face attributes, colors."""
 
 import bmesh
 import bpy
@@ -310,7 +310,7 @@ def test_an_open_chain_encloses_nothing(last):
         ({"region_source": "GROUP"}, "no vertex group is named"),
         ({"region_source": "GROUP", "region_layer": "Pins"}, "there is no vertex group named Pins"),
         ({"region_source": "ATTRIBUTE", "region_layer": "Pins"}, "there is no face attribute named Pins"),
-        ({"region_source": "COLOR", "region_layer": "Pins"}, "there is no colour attribute named Pins"),
+        ({"region_source": "COLOR", "region_layer": "Pins"}, "there is no color attribute named Pins"),
     ],
 )
 def test_missing_layers_are_named(wish, words, last):

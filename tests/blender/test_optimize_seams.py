@@ -368,9 +368,9 @@ def random_seams(rng, obj):
     """Borders of random regions, some of them taken away again, and some lone edges."""
     bm = bmesh.from_edit_mesh(obj.data)
     bm.edges.ensure_lookup_table()
-    centres = np.array([face.calc_center_median() for face in bm.faces])
-    seeds = centres[rng.choice(len(centres), int(rng.integers(2, 8)), replace=False)]
-    distances = np.linalg.norm(centres[:, None] - seeds, axis=2) * rng.uniform(1, 1.2, (len(centres), len(seeds)))
+    centers = np.array([face.calc_center_median() for face in bm.faces])
+    seeds = centers[rng.choice(len(centers), int(rng.integers(2, 8)), replace=False)]
+    distances = np.linalg.norm(centers[:, None] - seeds, axis=2) * rng.uniform(1, 1.2, (len(centers), len(seeds)))
     region = np.argmin(distances, axis=1)
     keep = rng.random() < 0.5
     return [

@@ -52,7 +52,7 @@ def run(source, **properties):
     return bpy.ops.mesh.optimize_segmentation(source=source, **(name | properties))
 
 
-def labelled(labels, source="MATERIAL", **more):
+def labeled(labels, source="MATERIAL", **more):
     obj = grooved_cylinder(**more)
     set_labels(obj, source, labels)
     edit(obj)
@@ -61,7 +61,7 @@ def labelled(labels, source="MATERIAL", **more):
 
 @pytest.mark.parametrize("source", SOURCES)
 def test_a_ragged_border_lands_in_the_groove(source, last, capfd):
-    obj = labelled(ragged(GROOVE - 2), source)
+    obj = labeled(ragged(GROOVE - 2), source)
     assert run(source) == {"FINISHED"}
     assert get_labels(obj, source).tolist() == straight(GROOVE).tolist()
     assert last.message.startswith("1 of 1 borders moved. Ratio ")
@@ -91,7 +91,7 @@ def test_nothing_but_the_labels_changes(source):
 
 @pytest.mark.parametrize("source", SOURCES)
 def test_undo_and_redo(source):
-    labelled(ragged(GROOVE - 2), source)
+    labeled(ragged(GROOVE - 2), source)
     bpy.ops.ed.undo_push(message="prepared")
     before = everything(bpy.data.objects["Cylinder"])
     name = NAMES.get(source, "")
@@ -108,7 +108,7 @@ def test_the_same_label_in_several_places():
     """A region is a connected piece: both borders of the middle one move, and the ends keep the label they share."""
     labels = ragged(GROOVE - 2) + ragged(RINGS - 3)
     labels[labels == 2] = 0
-    obj = labelled(labels)
+    obj = labeled(labels)
     assert run("MATERIAL") == {"FINISHED"}
     after = get_labels(obj, "MATERIAL").reshape(-1, SEGMENTS)
     assert (after[:GROOVE] == 0).all()
@@ -119,7 +119,7 @@ def test_the_same_label_in_several_places():
 def test_three_regions_meet_in_junctions_that_stay():
     column = np.arange(SEGMENTS) < SEGMENTS // 2
     labels = np.where(ragged(GROOVE - 1).reshape(-1, SEGMENTS), 2, column).ravel()
-    obj = labelled(labels)
+    obj = labeled(labels)
     before = junctions(obj, labels)
     assert run("MATERIAL", min_salience=0.0) == {"FINISHED"}
     after = get_labels(obj, "MATERIAL")
@@ -148,7 +148,7 @@ def test_all_objects_in_edit_mode(last):
 
 
 def test_hidden_faces_keep_their_labels():
-    obj = labelled(ragged(GROOVE - 2))
+    obj = labeled(ragged(GROOVE - 2))
     bm = bmesh.from_edit_mesh(obj.data)
     for face in bm.faces:
         if face.index % SEGMENTS < 5:
@@ -224,7 +224,7 @@ def test_what_is_missing_in_all_objects_is_said_once_and_not_of_those_without_fa
 
 
 def test_a_border_in_its_place_already(last):
-    obj = labelled(straight(GROOVE))
+    obj = labeled(straight(GROOVE))
     before = everything(obj)
     assert run("MATERIAL") == {"FINISHED"}  # a result, whose settings the redo panel may change
     assert everything(obj) == before
@@ -244,7 +244,7 @@ def test_object_mode_is_refused():
 
 
 def test_the_library_missing(monkeypatch):
-    obj = labelled(ragged(GROOVE - 2))
+    obj = labeled(ragged(GROOVE - 2))
     before = everything(obj)
     monkeypatch.setattr(native, "VERSION", "0.0.1")
     with pytest.raises(RuntimeError, match="restart Blender"):
@@ -258,7 +258,7 @@ def test_the_library_missing(monkeypatch):
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
 @pytest.mark.parametrize("source", SOURCES)
 def test_api(source, mode):
-    obj = labelled(ragged(GROOVE - 2), source)
+    obj = labeled(ragged(GROOVE - 2), source)
     bpy.ops.object.mode_set(mode=mode)
     where = {"attribute": "Part"} if source == "ATTRIBUTE" else {"source": source}
     (result,) = api.optimize_segmentation(obj, **where)
@@ -280,9 +280,9 @@ def test_api_names_what_is_missing():
 
 
 def random_labels(rng, obj):
-    centres = np.array([face.center for face in obj.data.polygons])
-    seeds = centres[rng.choice(len(centres), int(rng.integers(2, 12)), replace=False)]
-    distances = np.linalg.norm(centres[:, None] - seeds, axis=2) * rng.uniform(1, 1.25, (len(centres), len(seeds)))
+    centers = np.array([face.center for face in obj.data.polygons])
+    seeds = centers[rng.choice(len(centers), int(rng.integers(2, 12)), replace=False)]
+    distances = np.linalg.norm(centers[:, None] - seeds, axis=2) * rng.uniform(1, 1.25, (len(centers), len(seeds)))
     return np.argmin(distances, axis=1)
 
 

@@ -250,7 +250,7 @@ def test_faces_that_fill_a_hole_look_outward():
     assert len(caps) == 2
     for cap in caps:
         for edge in cap.edges:
-            assert len({loop.vert for loop in edge.link_loops}) == 2  # neighbours run along it in opposite directions
+            assert len({loop.vert for loop in edge.link_loops}) == 2  # neighbors run along it in opposite directions
 
 
 @pytest.mark.parametrize("settings", [{}, REFINED])

@@ -37,7 +37,7 @@ def segment(source="MATERIAL", **settings):
     return bpy.ops.mesh.optimize_segmentation(**where(source), **(REFINED | settings))
 
 
-def labelled_tilted(labels=None, source="MATERIAL"):
+def labeled_tilted(labels=None, source="MATERIAL"):
     obj = tilted_cylinder()
     set_labels(obj, source, ragged(GROOVE - 2) if labels is None else labels)
     edit(obj)
@@ -66,7 +66,7 @@ def is_valid(obj):
 
 @pytest.mark.parametrize("source", SOURCES)
 def test_a_border_across_faces_is_cut_and_the_labels_follow(source, last):
-    obj = labelled_tilted(source=source)
+    obj = labeled_tilted(source=source)
     count = len(obj.data.polygons)
     (result,) = api.optimize_segmentation(obj, **where(source), **REFINED)
     assert (result.vertices < 0).any()
@@ -81,7 +81,7 @@ def test_a_border_across_faces_is_cut_and_the_labels_follow(source, last):
 
 
 def test_along_edges_alone_nothing_is_cut():
-    obj = labelled_tilted()
+    obj = labeled_tilted()
     before = everything(obj)
     assert segment(refinement=0, merge=0.3) == {"FINISHED"}
     after = everything(obj)
@@ -89,7 +89,7 @@ def test_along_edges_alone_nothing_is_cut():
 
 
 def test_undo_and_redo_of_a_segmentation():
-    labelled_tilted(three_labels())
+    labeled_tilted(three_labels())
     bpy.ops.ed.undo_push(message="prepared")
     before = everything(bpy.data.objects["Cylinder"])
     assert bpy.ops.mesh.optimize_segmentation("EXEC_DEFAULT", True, source="MATERIAL", **REFINED) == {"FINISHED"}
@@ -103,7 +103,7 @@ def test_undo_and_redo_of_a_segmentation():
 
 @pytest.mark.parametrize("source", SOURCES)
 def test_faces_that_no_border_crosses_stay_as_they_are(source):
-    obj = labelled_tilted(three_labels(), source)
+    obj = labeled_tilted(three_labels(), source)
     labels = get_labels(obj, source)
     results = api.optimize_segmentation(obj, **where(source), **REFINED)
     uncut = np.setdiff1d(np.arange(len(labels)), touched(obj, results))
@@ -129,7 +129,7 @@ def touched(obj, results):
 def test_the_same_twice():
     found = []
     for _ in range(2):
-        obj = labelled_tilted(three_labels())
+        obj = labeled_tilted(three_labels())
         segment()
         found.append(everything(obj))
     assert found[0] == found[1]
@@ -139,7 +139,7 @@ def test_the_same_twice():
 def test_scripts_in_object_mode_get_the_same_as_in_edit_mode(source):
     found = []
     for mode in ("OBJECT", "EDIT"):
-        obj = labelled_tilted(three_labels(), source)
+        obj = labeled_tilted(three_labels(), source)
         obj.data.uv_layers.new(name="UVMap")
         bpy.ops.object.mode_set(mode=mode)
         results = api.optimize_segmentation(obj, apply=True, merge=0.1, **where(source), **REFINED)
@@ -180,7 +180,7 @@ def test_custom_normals_outlive_a_cut(mode):
 
 
 def test_across_faces_the_mean_ratio_is_not_above_that_along_edges():
-    obj = labelled_tilted(three_labels())
+    obj = labeled_tilted(three_labels())
     ratios = []
     for refinement in (0, 2):
         results = api.optimize_segmentation(obj, "MATERIAL", refinement=refinement, iterations=4, **RATIO_ALONE)

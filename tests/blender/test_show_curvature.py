@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""mesh.show_curvature: attributes and colours of the least curvature, in Edit Mode."""
+"""mesh.show_curvature: attributes and colors of the least curvature, in Edit Mode."""
 
 import bmesh
 import bpy
@@ -14,7 +14,7 @@ def run(**properties):
 
 
 def shown(obj):
-    """Values and colours of all vertices, as Object Mode has them."""
+    """Values and colors of all vertices, as Object Mode has them."""
     bpy.ops.object.mode_set(mode="OBJECT")
     mesh = obj.data
     values = np.empty(len(mesh.vertices))
@@ -61,7 +61,7 @@ def test_the_radius_averages_and_a_lower_quantile_gives_more_contrast():
         edit(obj)
         run(**properties)
         values, colors = shown(obj)
-        contrast.append(-colors[:, :3].sum(axis=1).mean())  # what is coloured is darker than white
+        contrast.append(-colors[:, :3].sum(axis=1).mean())  # what is colored is darker than white
         deepest.append(values[ring(GROOVE)].min())
     assert contrast[1] > contrast[0]
     assert deepest[1] == deepest[0] < deepest[2]

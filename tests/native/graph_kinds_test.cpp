@@ -69,7 +69,7 @@ TEST_P(EveryKind, optimum_with_length_bias_is_that_of_brute_force) {
     });
 }
 
-TEST_P(EveryKind, optimum_by_counts_is_that_of_brute_force_and_of_karps_programme) {
+TEST_P(EveryKind, optimum_by_counts_is_that_of_brute_force_and_of_karps_program) {
     for_each_graph(30000, [](WeightedGraph graph, unsigned seed) {
         std::ranges::fill(graph.g, 1.0);
         const mrc::Objective objective = objective_of(seed);

@@ -5,7 +5,7 @@
 
 namespace mrc_test {
 
-/// Karp's dynamic programme for the minimum mean path with length (appendix A, eq. A.3): the least sum of f over the paths of exactly
+/// Karp's dynamic program for the minimum mean path with length (appendix A, eq. A.3): the least sum of f over the paths of exactly
 /// l arcs, for every l and every node, from one source after the other. All g must be 1. It takes O(n m) for each source, and is
 /// the independent check of the search by counts.
 /// @return the least objective over all source and destination pairs; infinity where there is no path.

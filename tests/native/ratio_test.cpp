@@ -120,7 +120,7 @@ TEST_P(RandomGraphs, optimum_by_counts_is_that_of_brute_force) {
     }
 }
 
-TEST_P(RandomGraphs, optimum_by_counts_is_that_of_karps_programme_on_larger_graphs) {
+TEST_P(RandomGraphs, optimum_by_counts_is_that_of_karps_program_on_larger_graphs) {
     for (unsigned seed = 7000; seed < 7060; ++seed) {
         WeightedGraph graph = layered_graph(seed, GetParam(), 10, 25);
         std::ranges::fill(graph.g, 1.0);

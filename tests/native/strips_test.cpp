@@ -105,9 +105,9 @@ struct Torus {
 /// The loops of edges that part the triangles whose centroids lie above a plane from the others, above to their left.
 std::vector<Curve> plane_loops(const Surface& surface, const Vec3& normal, double level) {
     const auto above = [&](int face) {
-        Vec3 centre = Vec3::Zero();
-        for (const int v : surface.face(face)) centre += surface.position(v);
-        return normal.dot(centre) > level * static_cast<double>(surface.face(face).size());
+        Vec3 center = Vec3::Zero();
+        for (const int v : surface.face(face)) center += surface.position(v);
+        return normal.dot(center) > level * static_cast<double>(surface.face(face).size());
     };
     std::map<int, int> next;
     std::set<int> touched;  // where the border touches itself
@@ -421,12 +421,12 @@ TEST(Strips, LawsHoldWhereNoFaceEntered) {
         c.band.edge[gap / 2] = 1;
         const auto follow_contour = [&](Curve& border) {  // over the gap
             const std::set<int> at_border(border.begin(), border.end());
-            const auto neighbour = [&](int v) {
+            const auto neighbor = [&](int v) {
                 for (const auto w : c.patch.mesh.vv_range(PatchMesh::VertexHandle(v)))
                     if (at_border.contains(w.idx()) && !c.patch.diagonal_halfedge(c.halfedge(v, w.idx()))) return w.idx();
                 return -1;
             };
-            const auto after = std::ranges::find(border, neighbour(c.to(gap)));
+            const auto after = std::ranges::find(border, neighbor(c.to(gap)));
             border.insert(after, {c.from(gap), c.to(gap)});
         };
         follow_contour(c.band.left[1]);
@@ -478,7 +478,7 @@ TEST(StripFlow, LeavesTheCrossEdgesOfARegularGridLevel) {
     }
 }
 
-/// Rows that are stretched unevenly, each in the same way: gates tie each vertex to its neighbour across.
+/// Rows that are stretched unevenly, each in the same way: gates tie each vertex to its neighbor across.
 TEST(StripFlow, GatesTieNarrowsWhereArcLengthDrifts) {
     const int columns = 24, rows = 5;
     std::vector<double> positions;
@@ -602,7 +602,7 @@ int euler_characteristic(const Case& c) {
 }
 
 /// The vertices of all band polygons at a vertex.
-std::set<int> polygon_neighbours(const Case& c, int vertex) {
+std::set<int> polygon_neighbors(const Case& c, int vertex) {
     std::set<int> polygons, found;
     for (const auto f : c.patch.mesh.vf_range(PatchMesh::VertexHandle(vertex)))
         if (c.band.face[f.idx()]) polygons.insert(c.patch.polygon[f.idx()]);
@@ -624,7 +624,7 @@ TEST(OpenBand, IsADiskThatGrowsRoundByRound) {
             EXPECT_EQ(c.band.round[v] < 0, c.band.side[v] == Side::outside);
             EXPECT_LE(c.band.round[v], c.band.rounds);
             if (c.band.round[v] <= 0) continue;
-            const std::set<int> near = polygon_neighbours(c, v);
+            const std::set<int> near = polygon_neighbors(c, v);
             EXPECT_TRUE(
                 std::ranges::any_of(near, [&](int w) { return c.band.round[w] >= 0 && c.band.round[w] < c.band.round[v]; }));
         }
@@ -648,7 +648,7 @@ TEST(OpenBand, BoundariesRunFromEndToEnd) {
                 EXPECT_EQ(curve.back(), c.patch.contour.back());
                 EXPECT_EQ(std::set<int>(curve.begin(), curve.end()).size(), curve.size());
                 for (const int v : curve) {
-                    const std::set<int> near = polygon_neighbours(c, v);
+                    const std::set<int> near = polygon_neighbors(c, v);
                     EXPECT_TRUE(last.contains(v) || std::ranges::any_of(near, [&](int w) { return last.contains(w); }));
                 }
             }

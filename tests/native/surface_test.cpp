@@ -299,10 +299,10 @@ TEST(Surface, VisitsEveryRealEdgeAtAVertex) {
         }
         for (int v = 0; v < s.vertex_count(); ++v) {
             std::multiset<int> visited;
-            s.for_each_real_edge(v, [&](int neighbour, int edge) {
-                visited.insert(neighbour);
-                const int h = s.find_halfedge(v, neighbour);
-                EXPECT_EQ(edge, s.edge(h >= 0 ? h : s.find_halfedge(neighbour, v)));
+            s.for_each_real_edge(v, [&](int neighbor, int edge) {
+                visited.insert(neighbor);
+                const int h = s.find_halfedge(v, neighbor);
+                EXPECT_EQ(edge, s.edge(h >= 0 ? h : s.find_halfedge(neighbor, v)));
             });
             EXPECT_EQ(std::set<int>(visited.begin(), visited.end()), expected[v]);
             for (const int u : expected[v]) {
@@ -317,22 +317,22 @@ TEST(Surface, VisitsEveryRealEdgeAtAVertex) {
 // Regular from its definition: no irregular edge, and the polygons at v are connected through the sides that they share there.
 bool regular_by_definition(const Mesh& mesh, int v) {
     const auto sides = sides_of(mesh);
-    std::map<int, std::set<int>> neighbours;
+    std::map<int, std::set<int>> neighbors;
     std::set<int> faces;
     for (const auto& [ends, meeting] : sides) {
         if (ends.first != v && ends.second != v) continue;
         if (meeting.size() > 2 || (meeting.size() == 2 && meeting[0].second == meeting[1].second)) return false;
         for (const auto& side : meeting) {
             faces.insert(side.first);
-            neighbours[side.first].insert(meeting.front().first);
-            neighbours[meeting.front().first].insert(side.first);
+            neighbors[side.first].insert(meeting.front().first);
+            neighbors[meeting.front().first].insert(side.first);
         }
     }
     if (faces.empty()) return true;
     std::set<int> reached = {*faces.begin()};
     for (size_t before = 0; before != reached.size();) {
         before = reached.size();
-        for (const int f : std::set<int>(reached)) reached.insert(neighbours[f].begin(), neighbours[f].end());
+        for (const int f : std::set<int>(reached)) reached.insert(neighbors[f].begin(), neighbors[f].end());
     }
     return reached == faces;
 }

@@ -38,7 +38,7 @@ def rest(found, patterns):
     return found
 
 
-def test_the_wheel_holds_module_library_stubs_and_licences(packages, version):
+def test_the_wheel_holds_module_library_stubs_and_licenses(packages, version):
     info = f"mrcontour-{version}.dist-info"
     wanted = [MODULE, LIBRARY, "mrcontour-stubs/__init__.pyi", *(f"{info}/licenses/{name}" for name in LICENCES)]
     own = {f"{info}/{name}" for name in ("METADATA", "WHEEL", "RECORD", "sboms/auditwheel.cdx.json")}
@@ -52,7 +52,7 @@ def test_the_extension_holds_the_python_the_manifest_and_the_wheel(packages):
     assert contents(packages["extension"])[wheel] == packages["wheel"].read_bytes()
 
 
-def test_the_legacy_add_on_holds_the_python_the_library_and_the_licences(packages):
+def test_the_legacy_add_on_holds_the_python_the_library_and_the_licenses(packages):
     found = names(packages["legacy"])
     assert all(name.startswith("minimum_ratio_contours/") for name in found)
     assert rest([name.partition("/")[2] for name in found], [MODULE, LIBRARY]) == SOURCES | LICENCES

@@ -42,7 +42,7 @@ def forbidden(name):
     return name in FORBIDDEN or name.startswith(FORBIDDEN_STARTS) or name.endswith(FORBIDDEN_ENDS)
 
 
-def offences(text):
+def offenses(text):
     nodes = list(ast.walk(ast.parse(text)))
     foreign = set().union(*map(imported, nodes)) - ALLOWED
     return sorted(foreign) + sorted(set().union(*map(called, nodes)))
@@ -50,7 +50,7 @@ def offences(text):
 
 @pytest.mark.parametrize("path", sorted((ROOT / "addon").glob("*.py")), ids=lambda path: path.stem)
 def test_only_harmless_modules_and_calls(path):
-    assert offences(path.read_text(encoding="utf-8")) == []
+    assert offenses(path.read_text(encoding="utf-8")) == []
 
 
 NOTICED = ["__import__", "eval", "exec", "file.write", "numpy.load", "numpy.savetxt", "open", "path.unlink"]
@@ -61,6 +61,6 @@ HARMLESS_CALLS = ["seams.write", "importlib.import_module", "self.execute", "par
 
 
 def test_what_would_be_noticed():
-    assert offences("import socket, pickle\nfrom urllib.request import urlopen") == ["pickle", "socket", "urllib"]
-    assert offences("\n".join(f"{call}('x')" for call in NOTICED + HARMLESS_CALLS)) == sorted(NOTICED)
+    assert offenses("import socket, pickle\nfrom urllib.request import urlopen") == ["pickle", "socket", "urllib"]
+    assert offenses("\n".join(f"{call}('x')" for call in NOTICED + HARMLESS_CALLS)) == sorted(NOTICED)
     assert not HARMLESS - sys.stdlib_module_names

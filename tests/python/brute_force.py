@@ -49,7 +49,7 @@ def sector(u, w, radius):
 
 
 def line_in_ball(p, q, radius):
-    """The parameters between which the segments p q (rows, seen from the centre) lie in a ball; two equal numbers, 0 or
+    """The parameters between which the segments p q (rows, seen from the center) lie in a ball; two equal numbers, 0 or
     1, where nothing does."""
     d = q - p
     a, b, c = (d * d).sum(axis=-1), (p * d).sum(axis=-1), (p * p).sum(axis=-1) - radius**2
@@ -106,10 +106,10 @@ class Geometry:
         self.mesh, self.x = mesh, mesh.positions
         self.face_edges = [edges_of(face) for face in mesh.faces]
         self.left_face = {edge: i for i, edges in enumerate(self.face_edges) for edge in edges}
-        self.neighbours = defaultdict(dict)
+        self.neighbors = defaultdict(dict)
         for edges in self.face_edges:
             for a, b in edges:
-                self.neighbours[a][b] = self.neighbours[b][a] = float(np.linalg.norm(self.x[a] - self.x[b]))
+                self.neighbors[a][b] = self.neighbors[b][a] = float(np.linalg.norm(self.x[a] - self.x[b]))
         self._polygons()
         self._triangles()
 
@@ -164,7 +164,7 @@ class Geometry:
             if v in found:
                 continue
             found[v] = d
-            for w, length in self.neighbours[v].items():
+            for w, length in self.neighbors[v].items():
                 if w not in found and d + length <= limit:
                     heappush(queue, (d + length, w))
         return found
@@ -173,20 +173,20 @@ class Geometry:
         """The vertices at most `count` real edges from the sources."""
         seen = front = set(map(int, sources))
         for _ in range(count):
-            front = {w for v in front for w in self.neighbours[v]} - seen
+            front = {w for v in front for w in self.neighbors[v]} - seen
             seen = seen | front
         return seen
 
     def mean_edge(self, vertices):
         """Mean length of the real edges between the given vertices."""
-        lengths = [d for v in vertices for w, d in self.neighbours[v].items() if v < w and w in vertices]
+        lengths = [d for v in vertices for w, d in self.neighbors[v].items() if v < w and w in vertices]
         return sum(lengths) / len(lengths)
 
     def disk_tensor(self, v, radius):
         """Eq. 3.4 at a vertex. The disk B is the part of the triangulated surface in the ball that hangs together with
         the vertex."""
-        centre = self.x[v]
-        start, end = line_in_ball(*(self.x[self.edge_ends] - centre).transpose(1, 0, 2), radius)
+        center = self.x[v]
+        start, end = line_in_ball(*(self.x[self.edge_ends] - center).transpose(1, 0, 2), radius)
         shares = dict(zip(self.at_edge, (end - start).tolist(), strict=True))
         seen, stack, met = set(self.at_vertex[v]), list(self.at_vertex[v]), {}
         while stack:
@@ -205,7 +205,7 @@ class Geometry:
             d = self.x[edge[1]] - self.x[edge[0]]
             if share > 0 and d.any():
                 tensor += self.bend[edge] * share * np.outer(d, d) / np.linalg.norm(d)
-        corners = self.x[np.array([self.triangles[i] for i in sorted(seen)])] - centre if seen else np.zeros((0, 3, 3))
+        corners = self.x[np.array([self.triangles[i] for i in sorted(seen)])] - center if seen else np.zeros((0, 3, 3))
         area = area_in_ball(corners, radius).sum()
         return tensor / area if area > 0 else tensor * 0.0
 
@@ -263,7 +263,7 @@ class Energy:
         contour = [int(v) for v in contour]
         near = self.geometry.rings(contour, SIZE_RINGS)
         self.h = self.geometry.mean_edge(near)
-        self.length = sum(self.geometry.neighbours[a][b] for a, b in edges_of(contour))
+        self.length = sum(self.geometry.neighbors[a][b] for a, b in edges_of(contour))
         self.curvatures = Curvatures(self.geometry, self.h, self.options)
         area = sum(self.geometry.area[v] for v in near)
         mean = sum(self.geometry.area[v] * abs(self.feature_curvature(v)) for v in near) / area
@@ -295,7 +295,7 @@ class Energy:
 
     def arc(self, a, b, c):
         """(f, g) of the arc from ab to bc."""
-        lengths = self.geometry.neighbours[a][b], self.geometry.neighbours[b][c]
+        lengths = self.geometry.neighbors[a][b], self.geometry.neighbors[b][c]
         one, two = self.projected(a, b, b), self.projected(b, c, b)
         here = self.curvatures[b]
         direction = here.direction_min if self.ridge else here.direction_max
@@ -344,7 +344,7 @@ class Levels:
         links = defaultdict(dict)
         for (a, b), increment in zip(space["edges"].tolist(), space["increments"].tolist(), strict=True):
             links[a][b], links[b][a] = increment, -increment
-            if b in geometry.neighbours[a]:
+            if b in geometry.neighbors[a]:
                 self.real[a, b], self.real[b, a] = increment, -increment
         self._classes()
         value = self._values(links)

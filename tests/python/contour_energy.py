@@ -254,7 +254,7 @@ class PointEnergy:
 
     def crease_weight(self, p, q):
         edge = edge_of(p, q)
-        if edge is None or edge[1] not in self.geometry.neighbours[edge[0]]:
+        if edge is None or edge[1] not in self.geometry.neighbors[edge[0]]:
             return 1.0
         return min(3.0, exp(3 * sin(self.geometry.bend[edge])))
 
@@ -316,7 +316,7 @@ class PointEnergy:
         return sum(f for f, _ in arcs), sum(g for _, g in arcs)
 
     def objective(self, f, g):
-        """What is minimised; g is the length in the denominator's measure, which is the length bias's too."""
+        """What is minimized; g is the length in the denominator's measure, which is the length bias's too."""
         if self.options["length_bias"] == 0:
             return f / g
         K, L0 = (self.K * self.L0 / self.n0, self.n0) if self.options["denominator"] == "arcs" else (self.K, self.L0)

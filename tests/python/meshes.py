@@ -190,9 +190,9 @@ def peanut(rng, subdivisions=4):
     """A closed body with a waist and bumps: a sphere, displaced along its normals."""
     sphere = icosphere(subdivisions)
     unit = sphere.positions
-    centres = rng.standard_normal((6, 3))
-    centres /= np.linalg.norm(centres, axis=1, keepdims=True)
-    bumps = 0.15 * np.exp(8 * (unit @ centres.T - 1)).sum(axis=1)
+    centers = rng.standard_normal((6, 3))
+    centers /= np.linalg.norm(centers, axis=1, keepdims=True)
+    bumps = 0.15 * np.exp(8 * (unit @ centers.T - 1)).sum(axis=1)
     radius = 0.6 + 0.9 * unit[:, 2] ** 2 + bumps
     return sphere.moved(radius[:, None] * unit + 0.003 * rng.standard_normal(unit.shape))
 

@@ -163,7 +163,7 @@ class Case:
         for p, q in chords:
             on_edge[edge_of(p, q)] = on_edge.get(edge_of(p, q), 0.0) + self.energy.size(p, q)
         whole = all(
-            abs(on_edge.get(tuple(sorted(edge)), 0.0) - self.energy.geometry.neighbours[edge[0]][edge[1]]) < 1e-9
+            abs(on_edge.get(tuple(sorted(edge)), 0.0) - self.energy.geometry.neighbors[edge[0]][edge[1]]) < 1e-9
             for edge in edges
         )
         return whole and all(vertex(v) in ring for v in vertices)

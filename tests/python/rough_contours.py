@@ -68,17 +68,17 @@ class RoughContours:
         """The zigzag between faces on both sides of a plane."""
         seed, normal = self.seed(), self.rng.standard_normal(3)
         within = self.ball(seed, REACH)[self.triangles].all(axis=1)
-        return self.borders((self.centres - self.positions[seed]) @ normal > 0, within)
+        return self.borders((self.centers - self.positions[seed]) @ normal > 0, within)
 
     @cached_property
-    def centres(self):
+    def centers(self):
         return self.positions[self.triangles].mean(axis=1)
 
     def parallel_cuts(self):
         """Several at once, side by side."""
         seed, normal = self.seed(), self.rng.standard_normal(3)
         within = self.ball(seed, REACH)[self.triangles].all(axis=1)
-        height = (self.centres - self.positions[seed]) @ normal
+        height = (self.centers - self.positions[seed]) @ normal
         spread = np.std(height[within]) if within.any() else 0.0
         cuts = [self.borders(height > offset * spread, within) for offset in (-0.7, -0.1, 0.5)]
         return [contour for cut in cuts for contour in cut[:2]]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The colours of curvatures, without Blender."""
+"""The colors of curvatures, without Blender."""
 
 import importlib
 import sys

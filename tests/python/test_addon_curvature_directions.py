@@ -60,7 +60,7 @@ def test_lines_run_along_the_groove_at_its_vertices():
     assert (np.abs(along[:, 2]) < 0.1 * lengths).all()
 
 
-def test_lines_of_neighbours_do_not_touch():
+def test_lines_of_neighbors_do_not_touch():
     arrays = tube(0.3)
     found = lines(arrays)
     middles = found.mean(axis=1)

@@ -33,13 +33,13 @@ def topology_of(mesh, hidden_faces=()):
     )
 
 
-def centres(mesh):
+def centers(mesh):
     return np.array([mesh.positions[list(face)].mean(axis=0) for face in mesh.faces])
 
 
 def nearest_seed(rng, mesh, count):
     """Ragged regions: each face goes to the nearest of some of the faces, with noise."""
-    places = centres(mesh)
+    places = centers(mesh)
     seeds = places[rng.choice(len(places), count, replace=False)]
     distances = np.linalg.norm(places[:, None] - seeds, axis=2)
     return rng.permutation(count)[np.argmin(distances * rng.uniform(1, 1.3, distances.shape), axis=1)]
@@ -378,7 +378,7 @@ def test_an_end_slides_unless_hidden_faces_are_beside_it(faces, hidden, end):
     places = [face for face in sheet if not faces or face[0] != 5 or set(face) != {5, 6, 21, 22}]
     mesh = meshes.polygon_mesh(positions, places + faces)
     hidden = [len(places) if faces else face for face in hidden]
-    labels = (centres(mesh)[:, 0] >= 6).astype(int)
+    labels = (centers(mesh)[:, 0] >= 6).astype(int)
     topology = topology_of(mesh, hidden)
     plan = optimize(mesh, topology, topology_module.label_borders(topology, labels), width=4, anchor=0.0)
     assert plan.changed

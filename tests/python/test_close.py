@@ -24,7 +24,7 @@ def grid_limb(kind, rng, rows=45):
 
 
 def limb(rng):
-    """A random limb with the centre and two directions of a plane that its axis crosses, in the middle of it."""
+    """A random limb with the center and two directions of a plane that its axis crosses, in the middle of it."""
     kind = rng.choice(["cylinder", "cone", "grooved", "tapering", "bent"])
     if kind != "bent":
         return grid_limb(kind, rng), np.zeros(3), np.eye(3)[:2]
@@ -49,9 +49,9 @@ def part_of(mesh, ring, share, rng):
     return ring[:count][:: rng.choice([-1, 1])].copy()
 
 
-def winding(mesh, loop, centre, plane):
-    """How often a loop goes round the axis through the centre."""
-    x, y = plane @ (mesh.positions[loop] - centre).T
+def winding(mesh, loop, center, plane):
+    """How often a loop goes round the axis through the center."""
+    x, y = plane @ (mesh.positions[loop] - center).T
     steps = np.diff(np.unwrap(np.arctan2(np.append(y, y[0]), np.append(x, x[0]))))
     return round(steps.sum() / (2 * np.pi))
 
@@ -71,12 +71,12 @@ def check_simple(mesh, loop, chain):
 def test_part_of_a_ring_is_closed_once_round_the_limb(share):
     for seed in range(70):
         rng = np.random.default_rng([seed, round(100 * share)])
-        mesh, centre, plane = limb(rng)
+        mesh, center, plane = limb(rng)
         ring = rough_ring(rng)
         chain = part_of(mesh, ring, share, rng)
         loop = mrc.close_contour(surface_of(mesh), chain)
         check_simple(mesh, loop, chain)
-        assert abs(winding(mesh, loop, centre, plane)) == 1, seed
+        assert abs(winding(mesh, loop, center, plane)) == 1, seed
         assert length_of(mesh, loop) <= 1.3 * length_of(mesh, ring), seed
 
 
@@ -122,10 +122,10 @@ def test_round_a_finger_and_not_over_its_tip():
         mesh, base = meshes.finger(rng)
         base = np.asarray(base)
         loop = mrc.close_contour(surface_of(mesh), part_of(mesh, base, 0.25, rng))
-        centre = mesh.positions[base].mean(axis=0)
-        assert abs(winding(mesh, loop, centre, np.eye(3)[:2])) == 1
-        radius = np.linalg.norm(mesh.positions[base] - centre, axis=1).mean()
-        assert np.abs(mesh.positions[loop, 2] - centre[2]).max() < radius
+        center = mesh.positions[base].mean(axis=0)
+        assert abs(winding(mesh, loop, center, np.eye(3)[:2])) == 1
+        radius = np.linalg.norm(mesh.positions[base] - center, axis=1).mean()
+        assert np.abs(mesh.positions[loop, 2] - center[2]).max() < radius
         assert length_of(mesh, loop) <= 1.3 * length_of(mesh, base)
 
 

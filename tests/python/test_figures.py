@@ -415,7 +415,7 @@ def edge_count(mesh, faces):
 @pytest.mark.parametrize("k", [0, 1, 2, 3])
 def test_table_5_1_nodes_and_arcs(k, flow):
     """Of a triangle's 6k^2 + 12k + 6 directed chords 6k(k + 1) cross it, and 2(k + 1) lie on each edge, shared with the
-    neighbour. One direction of each rises in the flow and is a node: 3k(k + 1) for each face and k + 1 for each edge.
+    neighbor. One direction of each rises in the flow and is a node: 3k(k + 1) for each face and k + 1 for each edge.
     By this the thesis's horse, with 979 faces and 1356 edges (it counts none on the band's border), has 8586 nodes for
     k = 1 and 21690 for k = 2; the thesis says 8535 and 21332. Where the flow is level along edges, as on gates, these
     are nodes both ways here, in the thesis none.

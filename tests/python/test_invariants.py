@@ -83,7 +83,7 @@ def test_band_shrinks_onto_a_tip(flow, rng):
 
 @pytest.mark.parametrize("flow", FLOWS)
 def test_irregular_edges_stop_the_band(flow):
-    """A fin on a tube makes edges of three faces; a flipped face disagrees with its neighbours."""
+    """A fin on a tube makes edges of three faces; a flipped face disagrees with its neighbors."""
     tube = meshes.tube(np.ones(11), 8)
     fin = ((7 * 8, 7 * 8 + 1, 88, 89),)
     positions = np.concatenate([tube.positions, [[1.5, 0.5, 7.0], [1.5, 0.0, 7.0]]])

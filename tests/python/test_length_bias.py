@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Length bias (6.1.1) by arc length, against enumeration and (refined) labels of length and energy, and by the number
-of edges, against the dynamic programme of appendix A."""
+of edges, against the dynamic program of appendix A."""
 
 from math import inf
 

@@ -50,16 +50,16 @@ def faces_between(mesh, low, high):
     for f, face in enumerate(mesh.faces):
         for a, b in zip(face, np.roll(face, -1)):
             beside.setdefault(frozenset((int(a), int(b))), []).append(f)
-    neighbours = [[] for _ in mesh.faces]
+    neighbors = [[] for _ in mesh.faces]
     for edge, faces in beside.items():
         if len(faces) == 2 and edge not in fence:
-            neighbours[faces[0]].append(faces[1])
-            neighbours[faces[1]].append(faces[0])
+            neighbors[faces[0]].append(faces[1])
+            neighbors[faces[1]].append(faces[0])
     below = {f for f, face in enumerate(mesh.faces) if min(face) < COLUMNS}  # at the lower border
     above = {f for f, face in enumerate(mesh.faces) if max(face) >= COLUMNS * (ROWS - 1)}
     outside, stack = below | above, [*(below | above)]
     while stack:
-        for other in neighbours[stack.pop()]:
+        for other in neighbors[stack.pop()]:
             if other not in outside:
                 outside.add(other)
                 stack.append(other)
@@ -161,8 +161,8 @@ def test_on_a_closed_body_all_between_two_contours_is_counted(height):
     surface, low = surface_of(mesh), -0.8
     contours = [max(meshes.plane_contours(mesh, [0.0, 0.0, 1.0], z), key=len) for z in (low, height)]
     density = 1 + mesh.positions[[face[0] for face in mesh.faces], 0]
-    centres = np.array([mesh.positions[list(face)].mean(axis=0)[2] for face in mesh.faces])
-    between = (density * areas(mesh))[(centres > low) & (centres <= height)].sum()
+    centers = np.array([mesh.positions[list(face)].mean(axis=0)[2] for face in mesh.faces])
+    between = (density * areas(mesh))[(centers > low) & (centers <= height)].sum()
     change = enclosed_change(surface, density, *contours, mrc.Options(region_weight=1.0))
     assert change == pytest.approx(-between, rel=1e-10)
 

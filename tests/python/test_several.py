@@ -144,7 +144,7 @@ def two_grooves(depths=(0.3, 0.2)):
     return mesh, [r * columns + np.arange(columns, dtype=np.int32) for r in range(rows)]
 
 
-def test_neighbours_that_would_change_places_stay_in_their_order():
+def test_neighbors_that_would_change_places_stay_in_their_order():
     """With a required vertex in each other's groove alone, both would pass the other; together neither does."""
     mesh, ring = two_grooves()
     surface, options = surface_of(mesh), mrc.Options(width=12)
@@ -206,7 +206,7 @@ def grooved_tube():
 
 @pytest.mark.parametrize("k", [0, 1])
 def test_a_contour_does_not_jump_over_one_in_the_same_faces(k):
-    """Alone both would go down to row 5. The upper one has row 6 as its neighbour along edges: below the other one."""
+    """Alone both would go down to row 5. The upper one has row 6 as its neighbor along edges: below the other one."""
     mesh = grooved_tube()
     surface, options = surface_of(mesh), mrc.Options(width=3, iterations=2, refinement=k)
     rows = mesh.positions[:, 2] / 0.3
@@ -224,7 +224,7 @@ def test_a_contour_does_not_jump_over_one_in_the_same_faces(k):
 
 @pytest.mark.parametrize("k", [0, 1])
 def test_an_edge_that_another_contour_crosses_is_closed(k):
-    """A small loop round a vertex of row 6, which the neighbour along edges of a loop round the tube passes."""
+    """A small loop round a vertex of row 6, which the neighbor along edges of a loop round the tube passes."""
     mesh = grooved_tube()
     surface, options = surface_of(mesh), mrc.Options(width=3, iterations=2, refinement=k)
     at = 6 * 24 + 5

@@ -134,14 +134,14 @@ def test_attraction_and_repulsion(realistic):
     _, mesh, contour = realistic
     surface, options = surface_of(mesh), mrc.Options(flow="harmonic", width=3)
     space = mrc.search_space(surface, contour, options=options)
-    centre, radius = int(space["left"][-1][0]), float(np.ptp(mesh.positions)) / 4
+    center, radius = int(space["left"][-1][0]), float(np.ptp(mesh.positions)) / 4
 
     def felt(strength):
         """How much of the pull the result feels: minus its numerator under an attractor of strength 1 alone."""
-        result = mrc.optimize(surface, contour, options=options, attractors=[(centre, radius, strength)])
+        result = mrc.optimize(surface, contour, options=options, attractors=[(center, radius, strength)])
         plain, pulled = (
             mrc.measure(surface, result, options=options, scales=result.scales, attractors=pulls)
-            for pulls in ((), [(centre, radius, 1.0)])
+            for pulls in ((), [(center, radius, 1.0)])
         )
         return (plain.numerator - pulled.numerator) / plain.length
 

@@ -134,7 +134,7 @@ struct Measure {
     double numerator = 0.0;  ///< sum of f over the contour's arcs
     double length = 0.0;     ///< sum of g
     double objective =
-        0.0;  ///< what is minimised: the ratio, or with a length bias ratio / K + length_bias max(length / L0, length_floor)
+        0.0;  ///< what is minimized: the ratio, or with a length bias ratio / K + length_bias max(length / L0, length_floor)
     double salience = 0.0;  ///< minus the ratio of eq. 3.2's energy alone, over K
 };
 

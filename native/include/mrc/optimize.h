@@ -53,7 +53,7 @@ struct Result {
     Reason reason_code = Reason::none;
     std::string reason;                               ///< the same in words
     double ratio = 0.0, initial_ratio = 0.0;          ///< of the contour returned and of the given one, 1 / unit of length
-    double objective = 0.0, initial_objective = 0.0;  ///< what is minimised: see `Objective`
+    double objective = 0.0, initial_objective = 0.0;  ///< what is minimized: see `Objective`
     /// Of the best found, even where the given contour is returned: minus the ratio of eq. 3.2's energy alone (with the clamp; without
     /// anchor, crease, attractors and region), over K.
     double salience = 0.0;
@@ -85,7 +85,7 @@ struct Task {
     std::optional<Scales> scales;  ///< those of an earlier result, to go on from it; none: of this contour
 };
 
-/// Optimises several contours of one mesh, which never cross or touch each other where the given ones did not (1.4).
+/// Optimizes several contours of one mesh, which never cross or touch each other where the given ones did not (1.4).
 ///
 /// They move together, iteration by iteration: each has the faces that are nearer to it than to any other, and what two bands have
 /// in common is closed to both. The results have the order of the tasks, but depend neither on it nor on the number of threads.
@@ -93,7 +93,7 @@ struct Task {
 std::vector<Result> optimize_all(const Surface& surface, std::span<const Task> tasks, const Options& options = {},
                                  const Progress& progress = {});
 
-/// The contour's ratio, without optimising. Of the wishes, the attractors and the region term weigh.
+/// The contour's ratio, without optimizing. Of the wishes, the attractors and the region term weigh.
 /// @throws InvalidInput and TooLarge as `optimize` does; barriers do not matter.
 Measure measure(const Surface& surface, const Contour& contour, const Options& options = {}, const Wishes& wishes = {},
                 const Scales* scales = nullptr);

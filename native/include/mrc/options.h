@@ -56,7 +56,7 @@ struct Options {
     int iterations = 1;          ///< then with `refinement`; each kind ends early where nothing moves
     /// Where the best found has less salience than this, there is nothing concave to find and the given contour stays.
     std::optional<double> min_salience;
-    int threads = 0;  ///< on which several contours are optimised; 0: as many as the machine has; no result depends on it
+    int threads = 0;  ///< on which several contours are optimized; 0: as many as the machine has; no result depends on it
 
     /// @throws InvalidInput that names the option, its value and its range.
     void check() const;

@@ -18,7 +18,7 @@ struct PatchTraits : OpenMesh::DefaultTraits {
 };
 using PatchMesh = OpenMesh::TriMesh_ArrayKernelT<PatchTraits>;
 
-/// The neighbourhood of a contour as a triangle mesh of its own, with maps back to the surface.
+/// The neighborhood of a contour as a triangle mesh of its own, with maps back to the surface.
 ///
 /// It holds the polygons that a band may enter: not hidden, all of whose vertices are regular, within the asked number of rings,
 /// where a ring is the polygons that share a vertex with the ring before. Elements are numbered from the contour outwards.
@@ -52,10 +52,10 @@ Contour checked_contour(const Surface& surface, const Contour& contour);
 std::string obstacle(const Surface& surface, int a, int b);
 
 /// True where a refined contour has a simple contour along mesh edges beside it, from which a band can grow.
-bool has_neighbour_along_edges(const Surface& surface, const Contour& contour);
+bool has_neighbor_along_edges(const Surface& surface, const Contour& contour);
 
-/// Cuts out the neighbourhood of a contour that `checked_contour` gave.
-/// @throws InvalidInput where it has no neighbour along edges.
+/// Cuts out the neighborhood of a contour that `checked_contour` gave.
+/// @throws InvalidInput where it has no neighbor along edges.
 /// `rings`: how far the patch reaches; none: to the whole connected component.
 Patch make_patch(const Surface& surface, const Contour& contour, std::optional<int> rings);
 

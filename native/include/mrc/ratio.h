@@ -26,7 +26,7 @@ struct WeightedGraph {
     int arc_count() const { return static_cast<int>(from.size()); }
 };
 
-/// What is minimised over paths with F = sum f and L = sum g: F / (scale L) + bias max(L, floor) (eq. 4.3, and 6.1 with a floor).
+/// What is minimized over paths with F = sum f and L = sum g: F / (scale L) + bias max(L, floor) (eq. 4.3, and 6.1 with a floor).
 ///
 /// The paths below a value are those under a concave function h(L), so every straight line above it there rules paths out.
 struct Objective {

@@ -77,7 +77,7 @@ class Surface {
     /// makes it for all components.
     double average_radius(int vertex) const;
 
-    /// Calls visit(neighbour, edge) for the real edges at a vertex; an irregular edge may come more than once.
+    /// Calls visit(neighbor, edge) for the real edges at a vertex; an irregular edge may come more than once.
     template <class Visit>
     void for_each_real_edge(int vertex, Visit&& visit) const {
         for (const int h : outgoing(vertex)) {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Curvature colours, and the directions drawn over them."""
+"""Curvature colors, and the directions drawn over them."""
 
 import bmesh
 import bpy

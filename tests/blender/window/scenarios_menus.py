@@ -63,7 +63,7 @@ def test_the_uv_menu_moves_all_seams(window):
     assert flagged(now(), "seam") == edge_set(ring(GROOVE))
 
 
-def labelled():
+def labeled():
     """The cylinder with two face sets that meet in a rough loop, in face mode."""
     obj = grooved_cylinder()
     sets = obj.data.attributes.new(segmentation.FACE_SETS, "INT", "FACE")
@@ -74,7 +74,7 @@ def labelled():
 
 
 def test_the_face_menu_moves_the_borders_of_regions(window):
-    labelled()
+    labeled()
     yield from opened(window, "F", ctrl=True)
     window.picture("menu-face")
     yield from window.choose("mesh.optimize_segmentation()")
@@ -110,7 +110,7 @@ def test_search_finds_seam(window):
 
 
 def test_search_finds_segmentation(window):
-    labelled()
+    labeled()
     yield from searched(window, "segmentation", "MESH_OT_optimize_segmentation", 0)
     assert "1 of 1 borders moved" in message()
 
