@@ -2,9 +2,9 @@
 // Every stage of the way, the whole call, and what it costs beside a large mesh, from arrays and on two threads.
 #include "cases.h"
 
-#include <mrc/contour.h>
-#include <mrc/curvature.h>
 #include <mrc/optimize.h>
+#include "curvature_field.h"
+#include "trace_contour.h"
 
 #include <benchmark/benchmark.h>
 

@@ -2,8 +2,11 @@
 #include "bindings.h"
 #include "inputs.h"
 #include "results.h"
+#include "search_space.h"
 
-#include <mrc/close.h>
+#include <mrc/close_contour.h>
+#include <mrc/curvature.h>
+#include <mrc/measure.h>
 #include <mrc/optimize.h>
 
 #include <pybind11/stl.h>
@@ -26,10 +29,10 @@ PyResult optimize(const Surface& surface, const py::object& vertices, bool close
                   const py::object& progress, const py::object& edge_vertices, const py::object& edge_parameters) {
     const mrc::Contour contour = to_contour(vertices, closed, edge_vertices, edge_parameters);
     const Density density = to_density(region_density);
-    const mrc::Wishes wishes = to_wishes(required_vertices, required_edges, attractors, barriers, density);
+    const mrc::Constraints constraints = to_constraints(required_vertices, required_edges, attractors, barriers, density);
     const mrc::Progress report = to_progress(progress);
     const py::gil_scoped_release release;
-    return describe(surface, mrc::optimize(surface, contour, options, wishes, address(scales), report));
+    return describe(surface, mrc::optimize(surface, contour, options, constraints, address(scales), report));
 }
 
 std::vector<PyResult> optimize_all(const Surface& surface, const Iterable& contours, const py::object& closed,
@@ -37,7 +40,7 @@ std::vector<PyResult> optimize_all(const Surface& surface, const Iterable& conto
                                    const Iterable& attractors, const py::object& barriers, const py::object& region_density,
                                    const py::object& scales, const py::object& progress) {
     const Density density = to_density(region_density);
-    const mrc::Wishes shared = to_wishes(py::tuple(), py::tuple(), attractors, barriers, density);
+    const mrc::Constraints shared = to_constraints(py::tuple(), py::tuple(), attractors, barriers, density);
     const std::vector<mrc::Task> tasks = to_tasks(contours, closed, required_vertices, required_edges, shared, scales);
     const mrc::Progress report = to_progress(progress);
     const py::gil_scoped_release release;
@@ -53,9 +56,9 @@ mrc::Measure measure(const Surface& surface, const py::object& vertices, bool cl
                      const py::object& edge_vertices, const py::object& edge_parameters) {
     const mrc::Contour contour = to_contour(vertices, closed, edge_vertices, edge_parameters);
     const Density density = to_density(region_density);
-    const mrc::Wishes wishes = to_wishes(py::tuple(), py::tuple(), attractors, py::tuple(), density);
+    const mrc::Constraints constraints = to_constraints(py::tuple(), py::tuple(), attractors, py::tuple(), density);
     const py::gil_scoped_release release;
-    return mrc::measure(surface, contour, options, wishes, address(scales));
+    return mrc::measure(surface, contour, options, constraints, address(scales));
 }
 
 py::typing::Optional<Integers> close_contour(const Surface& surface, const py::object& vertices, const py::object& progress) {

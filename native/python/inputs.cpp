@@ -110,21 +110,21 @@ Density to_density(const py::object& density) {
     return {values, view(values)};
 }
 
-mrc::Wishes to_wishes(const py::object& required_vertices, const py::object& required_edges, const Iterable& attractors,
-                      const py::object& barriers, const Density& region_density) {
-    mrc::Wishes wishes;
+mrc::Constraints to_constraints(const py::object& required_vertices, const py::object& required_edges, const Iterable& attractors,
+                                const py::object& barriers, const Density& region_density) {
+    mrc::Constraints constraints;
     const Integers vertices = integers(required_vertices, "required_vertices");
     if (vertices.size() > 0) require_shape(vertices, 0, "required_vertices");
-    wishes.required_vertices.assign(vertices.data(), vertices.data() + vertices.size());
-    wishes.required_edges = edge_pairs(required_edges, "required_edges");
-    wishes.attractors = to_attractors(attractors);
-    wishes.barriers = edge_pairs(barriers, "barriers");
-    wishes.region_density = region_density.values;
-    return wishes;
+    constraints.required_vertices.assign(vertices.data(), vertices.data() + vertices.size());
+    constraints.required_edges = edge_pairs(required_edges, "required_edges");
+    constraints.attractors = to_attractors(attractors);
+    constraints.barriers = edge_pairs(barriers, "barriers");
+    constraints.region_density = region_density.values;
+    return constraints;
 }
 
 std::vector<mrc::Task> to_tasks(const Iterable& contours, const py::object& closed, const py::object& required_vertices,
-                                const py::object& required_edges, const mrc::Wishes& shared, const py::object& scales) {
+                                const py::object& required_edges, const mrc::Constraints& shared, const py::object& scales) {
     const py::list list(contours);
     const std::size_t count = list.size();
     const auto closed_each = one_each(closed, !is_list(closed), count, "closed");
@@ -133,10 +133,10 @@ std::vector<mrc::Task> to_tasks(const Iterable& contours, const py::object& clos
     const auto scales_each = one_each(scales, !is_list(scales), count, "scales");
     std::vector<mrc::Task> tasks;
     for (std::size_t i = 0; i < count; ++i) {
-        const mrc::Wishes own = to_wishes(vertices_each[i], edges_each[i], py::tuple(), py::tuple(), {Doubles(0), {}});
+        const mrc::Constraints own = to_constraints(vertices_each[i], edges_each[i], py::tuple(), py::tuple(), {Doubles(0), {}});
         mrc::Task task{listed_contour(list[i], py::bool_(closed_each[i])), shared, std::nullopt};
-        task.wishes.required_vertices = own.required_vertices;
-        task.wishes.required_edges = own.required_edges;
+        task.constraints.required_vertices = own.required_vertices;
+        task.constraints.required_edges = own.required_edges;
         task.scales = to_scales(scales_each[i]);
         tasks.push_back(std::move(task));
     }

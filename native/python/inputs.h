@@ -21,13 +21,13 @@ struct Density {
 };
 Density to_density(const py::object& density);
 
-/// `region_density` must outlive the wishes.
-mrc::Wishes to_wishes(const py::object& required_vertices, const py::object& required_edges, const Iterable& attractors,
-                      const py::object& barriers, const Density& region_density);
+/// `region_density` must outlive the constraints.
+mrc::Constraints to_constraints(const py::object& required_vertices, const py::object& required_edges, const Iterable& attractors,
+                                const py::object& barriers, const Density& region_density);
 
 /// Several contours; what is not `shared` is one for all or one for each.
 std::vector<mrc::Task> to_tasks(const Iterable& contours, const py::object& closed, const py::object& required_vertices,
-                                const py::object& required_edges, const mrc::Wishes& shared, const py::object& scales);
+                                const py::object& required_edges, const mrc::Constraints& shared, const py::object& scales);
 
 /// `progress` must outlive what is returned.
 mrc::Progress to_progress(const py::object& progress);

@@ -2,7 +2,7 @@
 // The Python module: checks and converts arrays, releases the interpreter's lock, calls. No algorithm lives here.
 #include "bindings.h"
 
-#include <mrc/types.h>
+#include <mrc/errors.h>
 
 PYBIND11_MODULE(mrcontour, module) {
     namespace py = pybind11;

@@ -2,8 +2,8 @@
 #include "arrays.h"
 #include "bindings.h"
 
+#include <mrc/errors.h>
 #include <mrc/options.h>
-#include <mrc/types.h>
 
 #include <pybind11/stl.h>
 

@@ -3,7 +3,9 @@
 
 #include "bindings.h"
 
-#include <mrc/contour.h>
+#include "trace_contour.h"
+
+#include <mrc/measure.h>
 
 #include <pybind11/stl.h>
 

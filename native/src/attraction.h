@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <mrc/distances.h>
-#include <mrc/wishes.h>
+#include <mrc/constraints.h>
+#include "distances.h"
 
 #include <Eigen/Geometry>
 #include <unsupported/Eigen/BVH>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <mrc/band.h>
+#include "band.h"
 
 #include <algorithm>
 #include <array>
@@ -50,13 +50,13 @@ class PolygonSides {
 
 class Grower {
   public:
-    Grower(const Patch& patch, double farthest, const Wishes& wishes, const Territory& territory)
+    Grower(const Patch& patch, double farthest, const Constraints& constraints, const Exclusion& exclusion)
         : patch_(patch),
           mesh_(patch.mesh),
           sides_(patch),
           farthest_(farthest),
-          refused_(territory.refused),
-          barrier_(territory.wall) {
+          refused_(exclusion.refused),
+          barrier_(exclusion.wall) {
         band_.face.assign(mesh_.n_faces(), 0);
         band_.side.assign(mesh_.n_vertices(), Side::outside);
         band_.round.assign(mesh_.n_vertices(), -1);
@@ -64,7 +64,7 @@ class Grower {
         polygon_in_.assign(patch.polygon_count(), 0);
         order_polygons();
         for (const int v : patch.contour) admit(v, Side::contour, 0);
-        mark_barriers(wishes);
+        mark_barriers(constraints);
         for (std::size_t i = 0; i < chain_length(); ++i) {
             const Halfedge h = contour_halfedge(i);
             front_[h.idx()] = Side::left;
@@ -99,7 +99,7 @@ class Grower {
     PolygonSides sides_;
     double farthest_;            // how far from the contour the third and later rounds may reach
     std::vector<char> refused_;  // of each polygon
-    std::vector<char> barrier_;  // of each patch edge: a barrier, or a wall of the territory
+    std::vector<char> barrier_;  // of each patch edge: a barrier, or a wall of the exclusion
     Band band_;
     std::vector<Side> front_;  // half-edges of outer polygons whose other side is in the band
     std::vector<char> polygon_in_;
@@ -111,13 +111,13 @@ class Grower {
     /// The band lies on the other side of a barrier: both sides of one never enter.
     bool is_blocked(int h) const { return front_[h] != Side::outside && barrier_[h / 2]; }
 
-    void mark_barriers(const Wishes& wishes) {
+    void mark_barriers(const Constraints& constraints) {
         barrier_.resize(mesh_.n_edges(), 0);
         refused_.resize(patch_.polygon_count(), 0);
-        if (wishes.barriers.empty()) return;
+        if (constraints.barriers.empty()) return;
         std::unordered_map<int, int> local;
         for (std::size_t v = 0; v < patch_.vertex.size(); ++v) local.emplace(patch_.vertex[v], static_cast<int>(v));
-        for (const auto& [a, b] : wishes.barriers) {
+        for (const auto& [a, b] : constraints.barriers) {
             const auto p = local.find(a), q = local.find(b);
             if (p == local.end() || q == local.end()) continue;
             const auto h = mesh_.find_halfedge(PatchMesh::VertexHandle(p->second), PatchMesh::VertexHandle(q->second));
@@ -338,11 +338,11 @@ class Grower {
 
 }  // namespace
 
-Band grow_band(const Surface& surface, const Patch& patch, const Options& options, const Wishes& wishes,
-               const Territory& territory) {
+Band grow_band(const Surface& surface, const Patch& patch, const Options& options, const Constraints& constraints,
+               const Exclusion& exclusion) {
     const double radius = options.band_distance ? surface.average_radius(patch.vertex[patch.contour[0]]) : 0.0;
     const double farthest = options.band_distance ? *options.band_distance * radius : std::numeric_limits<double>::infinity();
-    return Grower(patch, farthest, wishes, territory).grow(options.width);
+    return Grower(patch, farthest, constraints, exclusion).grow(options.width);
 }
 
 }  // namespace mrc

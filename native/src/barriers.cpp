@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <mrc/wishes.h>
+#include "barriers.h"
 
-#include "guide.h"
+#include "surface_point.h"
 
 #include <algorithm>
 #include <set>
@@ -40,8 +40,9 @@ double place_in_fan(const Surface& surface, const std::vector<int>& fan, const S
 /// A contour crosses the barriers where, from a point or a run of points along them, some go off to its left and some to its right.
 class BarrierCheck {
   public:
-    BarrierCheck(const Surface& surface, const Contour& contour, const Wishes& wishes) : surface_(surface), contour_(contour) {
-        for (const auto& [a, b] : wishes.barriers) barriers_.insert({std::min(a, b), std::max(a, b)});
+    BarrierCheck(const Surface& surface, const Contour& contour, const Constraints& constraints)
+        : surface_(surface), contour_(contour) {
+        for (const auto& [a, b] : constraints.barriers) barriers_.insert({std::min(a, b), std::max(a, b)});
     }
 
     void run() const {
@@ -165,8 +166,8 @@ class BarrierCheck {
 
 }  // namespace
 
-void check_barriers(const Surface& surface, const Contour& contour, const Wishes& wishes) {
-    if (!wishes.barriers.empty()) BarrierCheck(surface, contour, wishes).run();
+void check_barriers(const Surface& surface, const Contour& contour, const Constraints& constraints) {
+    if (!constraints.barriers.empty()) BarrierCheck(surface, contour, constraints).run();
 }
 
 }  // namespace mrc

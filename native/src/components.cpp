@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "components.h"
 
-#include <mrc/curvature.h>
+#include "curvature_field.h"
 
 namespace mrc {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <mrc/distances.h>
+#include "distances.h"
 
 #include <limits>
 

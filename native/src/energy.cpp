@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <mrc/energy.h>
+#include "energy.h"
 
 #include "attraction.h"
-#include "guide.h"
+#include "surface_point.h"
 
 #include <Eigen/Geometry>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <mrc/flow.h>
+#include "flow.h"
 
 #include "strip_flow.h"
 

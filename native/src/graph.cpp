@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <mrc/graph.h>
+#include "graph.h"
 
-#include "ambient.h"
+#include "ambient_graph.h"
+#include "graph_size_limit.h"
 #include "line_graph.h"
-#include "memory.h"
-#include "requirements.h"
+#include "required_elements.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,16 +30,16 @@ struct DirectedSegment {
 class GraphBuilder {
   public:
     GraphBuilder(const Surface& surface, const Patch& patch, const Band& band, const Flow& flow, const Energy& energy,
-                 const Options& options, const Wishes& wishes, int steiner, const EdgeForm* region, const Territory& territory,
-                 const Beat& beat)
+                 const Options& options, const Constraints& constraints, int steiner, const EdgeForm* region,
+                 const Exclusion& exclusion, const Beat& beat)
         : surface_(surface),
           patch_(patch),
           band_(band),
           energy_(energy),
           options_(options),
-          wishes_(wishes),
+          constraints_(constraints),
           region_(region),
-          territory_(territory),
+          exclusion_(exclusion),
           beat_(beat),
           given_(expressed(patch.given, steiner).points),
           ambient_(make_ambient_graph(patch, band, flow, steiner)) {}
@@ -66,15 +66,15 @@ class GraphBuilder {
     const Band& band_;
     const Energy& energy_;
     const Options& options_;
-    const Wishes& wishes_;
+    const Constraints& constraints_;
     const EdgeForm* region_;
-    const Territory& territory_;
+    const Exclusion& exclusion_;
     const Beat& beat_;
     const std::vector<SurfacePoint> given_;  // the given contour with the graph's own points along edges
     AmbientGraph ambient_;
     ContourGraph graph_;
     std::vector<DirectedSegment> directed_;
-    Requirements requirements_;
+    RequiredElements required_elements_;
     std::vector<ChordSite> sites_;  // of the chords
 
     void choose_level() {
@@ -87,10 +87,10 @@ class GraphBuilder {
 
     /// Where another contour lies or may come to is closed, but for the contour's own points and segments.
     void keep_off_others() {
-        if (territory_.closed_vertex.empty()) return;
+        if (exclusion_.closed_vertex.empty()) return;
         std::vector<char> closed = closed_points();
         std::set<std::pair<int, int>> own_segments;
-        for (const Contour& own : territory_.own) {
+        for (const Contour& own : exclusion_.own) {
             std::vector<int> points;
             points.reserve(own.points.size());
             for (const SurfacePoint& p : own.points) points.push_back(ambient_.point_at(patch_, p));
@@ -101,9 +101,9 @@ class GraphBuilder {
             }
         }
         std::set<int> walls;  // by the surface's edges
-        for (int e = 0; e < static_cast<int>(territory_.wall.size()); ++e) {
+        for (int e = 0; e < static_cast<int>(exclusion_.wall.size()); ++e) {
             // Both ends of an edge between two bands may be points that the given contours share: neither runs along it.
-            if (territory_.wall[e] || territory_.closed_edge[e]) walls.insert(surface_.edge(patch_.edge_halfedge(e)));
+            if (exclusion_.wall[e] || exclusion_.closed_edge[e]) walls.insert(surface_.edge(patch_.edge_halfedge(e)));
         }
         for (Segment& s : ambient_.segments) {
             const bool crossed = s.halfedge >= 0 && walls.contains(surface_.edge(s.halfedge));
@@ -114,11 +114,11 @@ class GraphBuilder {
     std::vector<char> closed_points() const {
         std::vector<char> closed(ambient_.point_count(), 0);
         for (std::size_t v = 0; v < patch_.vertex.size(); ++v) {
-            if (ambient_.point_of_vertex[v] >= 0) closed[ambient_.point_of_vertex[v]] = territory_.closed_vertex[v];
+            if (ambient_.point_of_vertex[v] >= 0) closed[ambient_.point_of_vertex[v]] = exclusion_.closed_vertex[v];
         }
-        for (std::size_t e = 0; e < territory_.closed_edge.size(); ++e) {
+        for (std::size_t e = 0; e < exclusion_.closed_edge.size(); ++e) {
             const int first = ambient_.first_point_of_edge[e];
-            for (int i = 0; first >= 0 && i < ambient_.steiner; ++i) closed[first + i] = territory_.closed_edge[e];
+            for (int i = 0; first >= 0 && i < ambient_.steiner; ++i) closed[first + i] = exclusion_.closed_edge[e];
         }
         return closed;
     }
@@ -152,8 +152,8 @@ class GraphBuilder {
         directed_.push_back({high, low, 0.0, index(s), false, Climb::falling});
     }
 
-    Requirements::Place place(int point) const { return {graph_.points[point].level, graph_.points[point].rank, point}; }
-    Requirements::Span span(const DirectedSegment& d) const {
+    RequiredElements::Place place(int point) const { return {graph_.points[point].level, graph_.points[point].rank, point}; }
+    RequiredElements::Span span(const DirectedSegment& d) const {
         const GraphPoint &tail = graph_.points[d.tail], &head = graph_.points[d.head];
         return {tail.level, head.level, d.crosses, tail.rank, head.rank, d.segment};
     }
@@ -162,18 +162,18 @@ class GraphBuilder {
     int required_point(int vertex) const {
         const auto found = ambient_.local.find(vertex);
         if (found != ambient_.local.end()) return ambient_.point_of_vertex[found->second];
-        const char* others = territory_.refused.empty() ? "" : ", which other contours may keep back";
+        const char* others = exclusion_.refused.empty() ? "" : ", which other contours may keep back";
         throw InvalidInput("required vertex " + std::to_string(vertex) + " lies outside the band" + others +
                            ": widen the band or drop the requirement");
     }
 
     /// Deletes the chords that no contour through the required elements can hold (4.4).
     void require() {
-        for (const int v : wishes_.required_vertices) requirements_.require(place(required_point(v)));
-        for (const auto& [a, b] : wishes_.required_edges) require_edge(a, b);
+        for (const int v : constraints_.required_vertices) required_elements_.require(place(required_point(v)));
+        for (const auto& [a, b] : constraints_.required_edges) require_edge(a, b);
         if (!patch_.closed && options_.ends == Ends::edges) require_end_edges();
-        if (requirements_.empty()) return;
-        std::erase_if(directed_, [&](const DirectedSegment& d) { return !requirements_.allows(span(d)); });
+        if (required_elements_.empty()) return;
+        std::erase_if(directed_, [&](const DirectedSegment& d) { return !required_elements_.allows(span(d)); });
     }
 
     void require_edge(int a, int b) {
@@ -185,15 +185,15 @@ class GraphBuilder {
             throw InvalidInput("required edge (" + std::to_string(a) + ", " + std::to_string(b) +
                                ") is no edge inside the band: widen the band or drop the requirement");
         }
-        requirements_.require(place(p));
-        requirements_.require(place(q));
+        required_elements_.require(place(p));
+        required_elements_.require(place(q));
         std::vector<int> own = segments_of_edge(edge);
         if (!std::ranges::all_of(own, [&](int s) { return ambient_.segments[s].walkable; })) {
             throw InvalidInput("required edge (" + std::to_string(a) + ", " + std::to_string(b) +
                                ") touches another contour or its band: drop the requirement");
         }
         for (const DirectedSegment& d : directed_) {
-            if (std::ranges::find(own, d.segment) != own.end()) requirements_.require(span(d), own);
+            if (std::ranges::find(own, d.segment) != own.end()) required_elements_.require(span(d), own);
         }
     }
 
@@ -349,11 +349,11 @@ class GraphBuilder {
             const auto [tail, head, increment] = graph_.chords[c];
             // A path that begins or ends at the level of a required vertex begins or ends there.
             const int climb = sign(sites_[c].climb);
-            if (first[tail] && requirements_.allows_arc(place(tail), 0, climb)) {
+            if (first[tail] && required_elements_.allows_arc(place(tail), 0, climb)) {
                 const Frame frame = energy_.frame(graph_.points[tail].place);
                 graph_.search.sources.push_back(half(c, frame, {}, chord_end(c, frame)));
             }
-            if (last[head] && requirements_.allows_arc(place(head), climb, 0)) {
+            if (last[head] && required_elements_.allows_arc(place(head), climb, 0)) {
                 const Frame frame = energy_.frame(graph_.points[head].place);
                 graph_.search.destinations.push_back(half(c, frame, chord_end(c, frame), {}));
             }
@@ -371,7 +371,7 @@ class GraphBuilder {
 
     void join() {
         graph_.search = make_line_graph(
-            surface_, {graph_.points, graph_.chords, sites_, graph_.crossing, static_cast<int>(given_.size()), requirements_},
+            surface_, {graph_.points, graph_.chords, sites_, graph_.crossing, static_cast<int>(given_.size()), required_elements_},
             energy_, region_, beat_);
         graph_.search.matched = patch_.closed;
         for (int i = 0; i < graph_.crossing; ++i) {
@@ -385,10 +385,10 @@ class GraphBuilder {
 }  // namespace
 
 ContourGraph make_graph(const Surface& surface, const Patch& patch, const Band& band, const Flow& flow, const Energy& energy,
-                        const Options& options, const Wishes& wishes, int steiner, const EdgeForm* region,
-                        const Territory& territory, const Beat& beat) {
+                        const Options& options, const Constraints& constraints, int steiner, const EdgeForm* region,
+                        const Exclusion& exclusion, const Beat& beat) {
     check_graph_size(static_cast<double>(std::ranges::count(band.face, 1)), steiner);
-    return GraphBuilder(surface, patch, band, flow, energy, options, wishes, steiner, region, territory, beat).build();
+    return GraphBuilder(surface, patch, band, flow, energy, options, constraints, steiner, region, exclusion, beat).build();
 }
 
 }  // namespace mrc

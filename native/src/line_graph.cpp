@@ -117,7 +117,7 @@ class Joiner {
         const ArcWeights weights = energy_.weights(frames_[point_]);
         const ChordEnd start = end_of(out);
         const double enclosed_out = enclosed(c);
-        const bool crosses = out >= plain(), required = !chords_.requirements.empty();
+        const bool crosses = out >= plain(), required = !chords_.required_elements.empty();
         int* from = from_.data();
         double *f = f_.data(), *g = g_.data();
         for (const Arrival& in : arrivals_) {
@@ -145,7 +145,7 @@ class Joiner {
 
     bool allowed(int climb_in, int climb_out) const {
         const GraphPoint& p = chords_.points[point_];
-        return chords_.requirements.allows_arc({p.level, p.rank, point_}, climb_in, climb_out);
+        return chords_.required_elements.allows_arc({p.level, p.rank, point_}, climb_in, climb_out);
     }
 };
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "requirements.h"
+#include "required_elements.h"
 
-#include <mrc/graph.h>
+#include "graph.h"
 
 #include <cstdint>
 #include <vector>
@@ -29,7 +29,7 @@ struct Chords {
     const std::vector<ChordSite>& sites;
     int crossing;     ///< the last so many cross the level
     int given_count;  ///< points of the given contour
-    const Requirements& requirements;
+    const RequiredElements& required_elements;
 };
 
 /// The line graph of 3.1: chords are its nodes, and an arc joins each to those that start where it ends, weighed by eq. 3.1 and 3.2.

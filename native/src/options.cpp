@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <mrc/options.h>
 
-#include <mrc/types.h>
+#include <mrc/errors.h>
 
 #include <cmath>
 #include <sstream>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "partition.h"
 
-#include "guide.h"
+#include "surface_point.h"
 
 #include <algorithm>
 #include <set>
@@ -111,13 +111,13 @@ std::vector<int> Partition::refusing(int contour, int face) const {
     return others;
 }
 
-Territory Partition::territory(int contour, const Patch& patch) const {
-    Territory territory;
-    for (const int face : patch.polygon_face) territory.refused.push_back(!refusing(contour, face).empty());
+Exclusion Partition::exclusion(int contour, const Patch& patch) const {
+    Exclusion exclusion;
+    for (const int face : patch.polygon_face) exclusion.refused.push_back(!refusing(contour, face).empty());
     for (int e = 0; e < static_cast<int>(patch.mesh.n_edges()); ++e) {
-        territory.wall.push_back(has_other(owners_of(edges_, edge_of(patch, e)), contour));
+        exclusion.wall.push_back(has_other(owners_of(edges_, edge_of(patch, e)), contour));
     }
-    return territory;
+    return exclusion;
 }
 
 void Partition::enclose(int contour, const Patch& patch, const Band& band) {
@@ -129,14 +129,14 @@ void Partition::enclose(int contour, const Patch& patch, const Band& band) {
     }
 }
 
-void Partition::close(int contour, const Patch& patch, Territory& territory) const {
+void Partition::close(int contour, const Patch& patch, Exclusion& exclusion) const {
     for (const int v : patch.vertex) {
-        territory.closed_vertex.push_back(has_other(owners_of(vertices_, v), contour) ||
+        exclusion.closed_vertex.push_back(has_other(owners_of(vertices_, v), contour) ||
                                           has_other(owners_of(band_vertices_, v), contour));
     }
     for (int e = 0; e < static_cast<int>(patch.mesh.n_edges()); ++e) {
         const int edge = edge_of(patch, e);
-        territory.closed_edge.push_back(has_other(owners_of(edges_, edge), contour) ||
+        exclusion.closed_edge.push_back(has_other(owners_of(edges_, edge), contour) ||
                                         has_other(owners_of(band_edges_, edge), contour));
     }
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <mrc/band.h>
-#include <mrc/patch.h>
-#include <mrc/territory.h>
+#include "band.h"
+#include "exclusion.h"
+#include "patch.h"
 
 #include <span>
 #include <unordered_map>
@@ -29,12 +29,12 @@ class Partition {
     /// The other contours that run through the same faces as this one: it cannot move without passing them.
     std::vector<int> entangled_with(int contour, const Contour& where) const;
     /// `refused` and `wall`, once all have occupied and claimed.
-    Territory territory(int contour, const Patch& patch) const;
+    Exclusion exclusion(int contour, const Patch& patch) const;
 
     /// The vertices and edges of a contour's band.
     void enclose(int contour, const Patch& patch, const Band& band);
     /// `closed_vertex` and `closed_edge`, once all bands are enclosed.
-    void close(int contour, const Patch& patch, Territory& territory) const;
+    void close(int contour, const Patch& patch, Exclusion& exclusion) const;
 
     /// Who keeps the band from growing or the contour from using its vertices, ascending.
     std::vector<int> held_back_by(int contour, const Patch& patch, const Band& band) const;

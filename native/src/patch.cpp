@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <mrc/patch.h>
+#include "patch.h"
 
-#include "guide.h"
+#include "snapped_contour.h"
+#include "surface_point.h"
 
-#include <mrc/distances.h>
+#include "distances.h"
 
 #include <algorithm>
 #include <cmath>
@@ -200,7 +201,7 @@ class PatchBuilder {
     PatchBuilder(const Surface& surface, const Contour& contour) : surface_(surface) {
         patch_.closed = contour.closed;
         patch_.given = contour;
-        for (const int v : guide_vertices(surface, contour)) patch_.contour.push_back(local_vertex(v));
+        for (const int v : snapped_contour(surface, contour)) patch_.contour.push_back(local_vertex(v));
     }
 
     void add_rings(std::optional<int> rings) {
@@ -300,12 +301,12 @@ Contour checked_contour(const Surface& surface, const Contour& contour) {
 }
 
 bool has_neighbor_along_edges(const Surface& surface, const Contour& contour) {
-    const std::vector<int> guide = guide_vertices(surface, contour);
-    const std::size_t count = guide.size();
+    const std::vector<int> snapped = snapped_contour(surface, contour);
+    const std::size_t count = snapped.size();
     for (std::size_t i = 0; i + (contour.closed ? 0 : 1) < count; ++i) {
-        if (!obstacle(surface, guide[i], guide[(i + 1) % count]).empty()) return false;
+        if (!obstacle(surface, snapped[i], snapped[(i + 1) % count]).empty()) return false;
     }
-    return !guide.empty();
+    return !snapped.empty();
 }
 
 Patch make_patch(const Surface& surface, const Contour& contour, std::optional<int> rings) {

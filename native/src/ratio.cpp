@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <mrc/ratio.h>
+#include "ratio.h"
 
 #include <algorithm>
 #include <cmath>

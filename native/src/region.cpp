@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <mrc/region.h>
+#include "region.h"
 
-#include "guide.h"
+#include "surface_point.h"
 
-#include <mrc/curvature.h>
+#include "curvature_field.h"
 
 #include <Eigen/Geometry>
 

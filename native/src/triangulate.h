@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <mrc/errors.h>
 #include <mrc/types.h>
 
 #include <algorithm>

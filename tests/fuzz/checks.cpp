@@ -123,7 +123,7 @@ bool apart(const Contour& one, const Contour& two) {
     return std::ranges::none_of(two.points, [&](const SurfacePoint& p) { return points.contains(name(p)); });
 }
 
-void check_result(const Surface& surface, const Contour& given, const Options& options, const Wishes& wishes,
+void check_result(const Surface& surface, const Contour& given, const Options& options, const Constraints& constraints,
                   const Result& result) {
     check_numbers(result);
     check_contour(surface, result.contour);
@@ -135,9 +135,9 @@ void check_result(const Surface& surface, const Contour& given, const Options& o
             "what is unchanged has a reason");
     if (result.status == Status::improved) require(result.objective < result.initial_objective, "improved is better than given");
     require(result.lower_bound <= result.objective, "the bound is a bound");
-    require(meets(result.contour, wishes), "required elements are passed");
-    if (!wishes.region_density.empty()) return;  // what is enclosed counts from the contour as given
-    const Measure measured = measure(surface, result.contour, options, wishes, &result.scales);
+    require(meets(result.contour, constraints), "required elements are passed");
+    if (!constraints.region_density.empty()) return;  // what is enclosed counts from the contour as given
+    const Measure measured = measure(surface, result.contour, options, constraints, &result.scales);
     require(near(measured.ratio, result.ratio, result.scales.K), "measuring the result gives its ratio");
 }
 

@@ -18,6 +18,7 @@ void check_contour(const Surface& surface, const Contour& contour);
 bool apart(const Contour& one, const Contour& two);
 
 /// What holds of every result, whatever the options.
-void check_result(const Surface& surface, const Contour& given, const Options& options, const Wishes& wishes, const Result& result);
+void check_result(const Surface& surface, const Contour& given, const Options& options, const Constraints& constraints,
+                  const Result& result);
 
 }  // namespace mrc

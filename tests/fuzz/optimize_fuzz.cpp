@@ -3,7 +3,7 @@
 #include "checks.h"
 #include "made_mesh.h"
 
-#include <mrc/close.h>
+#include <mrc/close_contour.h>
 
 #include <algorithm>
 #include <cmath>
@@ -58,21 +58,21 @@ std::array<int, 2> edge(FuzzedDataProvider& data, const mrc::MadeMesh& mesh) {
     return {face[corner], face[(corner + 1) % face.size()]};
 }
 
-mrc::Wishes made_wishes(FuzzedDataProvider& data, const mrc::MadeMesh& mesh, const std::vector<double>& density) {
-    mrc::Wishes wishes;
+mrc::Constraints made_wishes(FuzzedDataProvider& data, const mrc::MadeMesh& mesh, const std::vector<double>& density) {
+    mrc::Constraints constraints;
     const int last = static_cast<int>(mesh.positions.size()) - 1;
     const auto some = [&](auto add) {
         for (int n = data.ConsumeBool() ? data.ConsumeIntegralInRange(0, 3) : 0; n > 0; --n) add();
     };
-    some([&] { wishes.required_vertices.push_back(data.ConsumeIntegralInRange(0, last)); });
-    some([&] { wishes.required_edges.push_back(edge(data, mesh)); });
-    some([&] { wishes.barriers.push_back(edge(data, mesh)); });
+    some([&] { constraints.required_vertices.push_back(data.ConsumeIntegralInRange(0, last)); });
+    some([&] { constraints.required_edges.push_back(edge(data, mesh)); });
+    some([&] { constraints.barriers.push_back(edge(data, mesh)); });
     some([&] {
-        wishes.attractors.push_back({data.ConsumeIntegralInRange(0, last), between(data, 1e-3, 20.0), between(data, -3.0, 3.0),
-                                     maybe(data, between(data, 1e-3, 10.0))});
+        constraints.attractors.push_back({data.ConsumeIntegralInRange(0, last), between(data, 1e-3, 20.0), between(data, -3.0, 3.0),
+                                          maybe(data, between(data, 1e-3, 10.0))});
     });
-    if (data.ConsumeBool()) wishes.region_density = density;
-    return wishes;
+    if (data.ConsumeBool()) constraints.region_density = density;
+    return constraints;
 }
 
 /// Loops and chains; sometimes a walk that is none.
@@ -108,7 +108,7 @@ void run(FuzzedDataProvider& data) {
     std::vector<double> density(mesh.faces.size());
     for (std::size_t f = 0; f < density.size(); ++f) density[f] = static_cast<double>(f % 5) - 2.0;
     const Options options = made_options(data);
-    const mrc::Wishes wishes = made_wishes(data, mesh, density);
+    const mrc::Constraints constraints = made_wishes(data, mesh, density);
     std::vector<Contour> contours = made_contours(data, mesh);
     if (contours.empty()) return;
     if (!contours[0].closed && data.ConsumeBool()) {
@@ -117,11 +117,12 @@ void run(FuzzedDataProvider& data) {
     }
     if (data.ConsumeBool()) contours.resize(1);
     std::vector<Task> tasks;
-    for (const Contour& contour : contours) tasks.push_back({contour, tasks.empty() ? wishes : mrc::Wishes{}, std::nullopt});
+    for (const Contour& contour : contours)
+        tasks.push_back({contour, tasks.empty() ? constraints : mrc::Constraints{}, std::nullopt});
     const auto results = mrc::optimize_all(surface, tasks, options, made_progress(data.ConsumeIntegralInRange(0, 40)));
     mrc::require(results.size() == tasks.size(), "each contour has its result");
     for (std::size_t i = 0; i < results.size(); ++i) {
-        mrc::check_result(surface, tasks[i].contour, options, tasks[i].wishes, results[i]);
+        mrc::check_result(surface, tasks[i].contour, options, tasks[i].constraints, results[i]);
         for (std::size_t j = 0; j < i; ++j) {
             mrc::require(mrc::apart(results[i].contour, results[j].contour) || !mrc::apart(contours[i], contours[j]),
                          "contours that are apart stay apart");
@@ -129,8 +130,8 @@ void run(FuzzedDataProvider& data) {
     }
     if (data.ConsumeIntegralInRange(0, 3) != 0) return;
     // What came out goes in again, across faces too.
-    const mrc::Result again = mrc::optimize(surface, results[0].contour, options, tasks[0].wishes);
-    mrc::check_result(surface, results[0].contour, options, tasks[0].wishes, again);
+    const mrc::Result again = mrc::optimize(surface, results[0].contour, options, tasks[0].constraints);
+    mrc::check_result(surface, results[0].contour, options, tasks[0].constraints, again);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "certificate.h"
 #include "brute_force.h"
 #include "random_graphs.h"
+#include "search_space.h"
 #include "waisted_torus.h"
 
 #include <mrc/optimize.h>

@@ -2,7 +2,7 @@
 #include "allocated.h"
 #include "waisted_torus.h"
 
-#include <mrc/curvature.h>
+#include "curvature_field.h"
 
 #include <gtest/gtest.h>
 

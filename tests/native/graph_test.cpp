@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "waisted_torus.h"
 
-#include <mrc/graph.h>
+#include "contour_scales.h"
+#include "graph.h"
 
 #include <gtest/gtest.h>
 

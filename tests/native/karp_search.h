@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <mrc/ratio.h>
+#include "ratio.h"
 
 namespace mrc_test {
 

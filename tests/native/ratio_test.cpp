@@ -4,7 +4,7 @@
 #include "random_graphs.h"
 #include "thesis_search.h"
 
-#include <mrc/ratio.h>
+#include "ratio.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "search_space.h"
 #include "waisted_torus.h"
 
+#include <mrc/curvature.h>
 #include <mrc/optimize.h>
 
 #include <gtest/gtest.h>

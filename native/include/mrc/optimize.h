@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <mrc/band.h>
-#include <mrc/energy.h>
-#include <mrc/graph.h>
+#include <mrc/constraints.h>
+#include <mrc/errors.h>
 #include <mrc/options.h>
 #include <mrc/scales.h>
 #include <mrc/surface.h>
-#include <mrc/wishes.h>
 
 #include <functional>
 #include <map>
@@ -71,17 +69,17 @@ struct Result {
 ///
 /// `scales`: those of an earlier result, to go on from it; none: of this contour.
 /// `progress` is called at each of three phases an iteration, and in long phases again every few milliseconds.
-/// @throws InvalidInput for options and wishes out of range and for contours that are not simple, not inside the mesh or cross a
+/// @throws InvalidInput for options and constraints out of range and for contours that are not simple, not inside the mesh or cross a
 /// barrier.
 /// @throws Infeasible where no contour of the band has all required elements.
 /// @throws TooLarge where the search would take more memory than there is, or more arcs than can be counted.
-Result optimize(const Surface& surface, const Contour& contour, const Options& options = {}, const Wishes& wishes = {},
+Result optimize(const Surface& surface, const Contour& contour, const Options& options = {}, const Constraints& constraints = {},
                 const Scales* scales = nullptr, const Progress& progress = {});
 
 /// One of several contours, with what is its own.
 struct Task {
     Contour contour;
-    Wishes wishes;
+    Constraints constraints;
     std::optional<Scales> scales;  ///< those of an earlier result, to go on from it; none: of this contour
 };
 
@@ -92,25 +90,5 @@ struct Task {
 /// @throws as `optimize` does; the message begins with the contour's place in the list.
 std::vector<Result> optimize_all(const Surface& surface, std::span<const Task> tasks, const Options& options = {},
                                  const Progress& progress = {});
-
-/// The contour's ratio, without optimizing. Of the wishes, the attractors and the region term weigh.
-/// @throws InvalidInput and TooLarge as `optimize` does; barriers do not matter.
-Measure measure(const Surface& surface, const Contour& contour, const Options& options = {}, const Wishes& wishes = {},
-                const Scales* scales = nullptr);
-
-/// The curvatures at all vertices; without scales, h is the whole surface's mean edge length.
-/// @throws InvalidInput for options out of range and where every edge has length 0.
-std::vector<VertexCurvature> curvature(const Surface& surface, const Options& options = {}, const Scales* scales = nullptr);
-
-/// All that one search of this width and refinement builds, for display and for tests.
-struct SearchSpace {
-    Patch patch;
-    Band band;
-    Flow flow;
-    ContourGraph graph;
-};
-/// @throws what `optimize` does.
-SearchSpace search_space(const Surface& surface, const Contour& contour, const Options& options = {}, const Wishes& wishes = {},
-                         const Scales* scales = nullptr);
 
 }  // namespace mrc

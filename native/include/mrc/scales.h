@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <mrc/curvature.h>
-#include <mrc/options.h>
-#include <mrc/surface.h>
+#include <mrc/types.h>
 
 #include <limits>
 
@@ -19,15 +17,5 @@ struct Scales {
     int n0 = 0;                                              ///< its number of arcs, with the run's Steiner points
     Contour given;                                           ///< the contour itself
 };
-
-double contour_length(const Surface& surface, const Contour& contour);
-
-/// The mean edge length h near a contour.
-/// @throws InvalidInput where every edge there has length 0.
-double mean_edge_length(const Surface& surface, const Contour& contour);
-
-/// `field` must be made with h = mean_edge_length(surface, contour).
-Scales contour_scales(const Surface& surface, const CurvatureField& field, double h, const Contour& contour,
-                      const Options& options);
 
 }  // namespace mrc

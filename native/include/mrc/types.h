@@ -5,7 +5,6 @@
 
 #include <functional>
 #include <span>
-#include <stdexcept>
 #include <vector>
 
 namespace mrc {
@@ -34,29 +33,8 @@ struct Contour {
 
 Contour vertex_contour(std::span<const int> vertices, bool closed = true);
 
-/// Called often by a long stage; what it throws ends the stage.
-using Beat = std::function<void()>;
-
 /// Called with the share done, from 0 to 1 without falling, on the caller's thread, often; false cancels, and what it throws reaches
 /// the caller.
 using Progress = std::function<bool(double)>;
-
-/// Input that cannot be used. The message names the elements and says what to do.
-class InvalidInput : public std::invalid_argument {
-  public:
-    using std::invalid_argument::invalid_argument;
-};
-
-/// The search would take more memory than there is. The message says what to lower.
-class TooLarge : public InvalidInput {
-  public:
-    using InvalidInput::InvalidInput;
-};
-
-/// No contour satisfies the constraints. The message says where the search stops.
-class Infeasible : public InvalidInput {
-  public:
-    using InvalidInput::InvalidInput;
-};
 
 }  // namespace mrc

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <mrc/surface.h>
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace mrc {
+
+/// A soft constraint (4.5): a place that contours are drawn to, or from where strength is negative.
+struct Attractor {
+    int vertex = -1;
+    double radius = 0.0;          ///< along the surface in the mesh's unit, above 0; nothing is felt beyond
+    double strength = 1.0;        ///< of the pull, in units of K
+    std::optional<double> sigma;  ///< of its Gaussian; none: half the radius
+};
+
+/// What a user asks of a contour besides being good.
+struct Constraints {
+    std::vector<int> required_vertices;              ///< vertices that the contour must pass (4.4)
+    std::vector<std::array<int, 2>> required_edges;  ///< real edges that it must run along
+    std::vector<Attractor> attractors;
+    std::vector<std::array<int, 2>> barriers;  ///< real edges that neither band nor contour crosses
+    std::span<const double> region_density;    ///< of each face, per area, for the region term (6.1.2); empty: none; not copied
+
+    /// @throws InvalidInput that names the element: out of range, no real edge, radius or sigma not above 0.
+    void check(const Surface& surface) const;
+};
+
+}  // namespace mrc

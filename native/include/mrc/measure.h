@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <mrc/constraints.h>
+#include <mrc/options.h>
+#include <mrc/scales.h>
+#include <mrc/surface.h>
+
+namespace mrc {
+
+/// What a contour costs (eq. 3.3). Lengths are in the mesh's unit, ratios in one over it.
+struct Measure {
+    double ratio = 0.0;      ///< numerator over length
+    double numerator = 0.0;  ///< sum of f over the contour's arcs
+    double length = 0.0;     ///< sum of g
+    double objective =
+        0.0;  ///< what is minimized: the ratio, or with a length bias ratio / K + length_bias max(length / L0, length_floor)
+    double salience = 0.0;  ///< minus the ratio of eq. 3.2's energy alone, over K
+};
+
+/// The contour's ratio, without optimizing. Of the constraints, the attractors and the region term weigh.
+/// @throws InvalidInput and TooLarge as `optimize` does; barriers do not matter.
+Measure measure(const Surface& surface, const Contour& contour, const Options& options = {}, const Constraints& constraints = {},
+                const Scales* scales = nullptr);
+
+}  // namespace mrc

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// All that a user of the library calls.
+#pragma once
+
+#include <mrc/close_contour.h>
+#include <mrc/constraints.h>
+#include <mrc/curvature.h>
+#include <mrc/errors.h>
+#include <mrc/measure.h>
+#include <mrc/optimize.h>
+#include <mrc/options.h>
+#include <mrc/scales.h>
+#include <mrc/surface.h>
+#include <mrc/types.h>

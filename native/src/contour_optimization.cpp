@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contour_optimization.h"
+
+#include "required_elements.h"
+#include "trace_contour.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+namespace mrc {
+namespace {
+
+constexpr const char* no_neighbour =
+    "no simple contour along mesh edges lies beside the given one, so that no band can grow from it";
+
+std::string numbered(const std::vector<int>& contours) {
+    std::string words = contours.size() == 1 ? "contour " : "contours ";
+    for (std::size_t i = 0; i < contours.size(); ++i) words += (i ? ", " : "") + std::to_string(contours[i]);
+    return words;
+}
+
+/// How far along the flow contours with the required elements get, in words.
+std::string where_it_stops(const ContourGraph& graph, const Constraints& constraints, const std::vector<int>& held_back_by) {
+    const WeightedGraph& search = graph.search;
+    std::vector<char> reached(search.node_count(), 0);
+    for (const Terminal& s : search.sources) reached[s.node] = 1;
+    const GraphPoint* farthest = nullptr;
+    for (int n = 0; n < search.node_count(); ++n) {
+        for (int a = search.first_arc[n]; a < search.first_arc[n + 1]; ++a) reached[n] |= reached[search.from[a]];
+        const int chord = search.matched ? graph.chord_of(n) : n;
+        const GraphPoint& head = graph.points[graph.chords[chord].head];
+        const bool source = search.matched && n < graph.crossing;
+        if (reached[n] && !source && (!farthest || head.level > farthest->level)) farthest = &head;
+    }
+    std::ostringstream message;
+    message << "no contour of the band has all " << constraints.required_vertices.size() + constraints.required_edges.size()
+            << " required elements: the search ";
+    if (farthest) {
+        message << "stops at vertex " << farthest->place.a;
+    } else {
+        message << "cannot even begin";
+    }
+    if (!held_back_by.empty()) message << ", with " << numbered(held_back_by) << " in the way";
+    message << ". Widen the band, raise max_turn or drop a requirement";
+    return message.str();
+}
+
+}  // namespace
+
+ContourOptimization::ContourOptimization(const Surface& surface, const Contour& contour, const Options& options,
+                                         const Constraints& constraints, const Scales* scales)
+    : surface_(surface),
+      options_(options),
+      phase_options_(options),
+      constraints_(constraints),
+      given_(contour),
+      stopwatch_(result_.statistics.seconds),
+      feasible_(has_required_elements(contour, constraints)) {
+    context_ = stopwatch_.time(
+        "curvature", [&] { return std::make_unique<SearchContext>(surface, contour, options, constraints.attractors, scales); });
+    if (!constraints_.region_density.empty() && options_.region_weight != 0.0) {
+        enclosed_ = enclosed_change(surface_, constraints_.region_density, context_->scales.given, given_);
+    }
+    const Measure first = measure(surface_, context_->energy, given_, options_.refinement, enclosed_);
+    result_.scales = context_->scales;
+    result_.contour = given_;
+    result_.ratio = result_.initial_ratio = first.ratio;
+    result_.objective = result_.initial_objective = first.objective;
+    result_.lower_bound = first.objective;
+    result_.salience = first.salience;
+}
+
+void ContourOptimization::begin_phase(int steiner) {
+    steiner_ = steiner;
+    // On the whole surface, what is refined works in a band around the regular result.
+    if (steiner > 0 && !options_.width) phase_options_.width = Options().width;
+    current_ = measure(surface_, context_->energy, result_.contour, steiner, enclosed_);
+    result_.ratio = current_.ratio;
+    result_.objective = result_.lower_bound = current_.objective;
+    result_.gap = 0.0;
+    best_found_ = result_.status == Status::unchanged ? std::numeric_limits<double>::infinity() : current_.objective;
+    if (feasible_) result_.history.push_back(current_.objective);
+    moving_ = true;
+}
+
+void ContourOptimization::cut_out() {
+    ++result_.statistics.iterations;
+    moving_ = moved_ = false;
+    patch_.reset();
+    if (has_neighbor_along_edges(surface_, result_.contour)) {
+        patch_ = stopwatch_.time("patch", [&] { return make_patch(surface_, result_.contour, phase_options_.width); });
+    } else if (result_.status == Status::unchanged) {
+        because(Reason::no_neighbour, no_neighbour);
+    }
+}
+
+void ContourOptimization::grow(Partition* partition, int number) {
+    result_.held_back_by.clear();
+    if (!patch_) return;
+    exclusion_ = {};
+    if (partition) {
+        result_.held_back_by = partition->entangled_with(number, result_.contour);
+        if (!result_.held_back_by.empty()) {
+            patch_.reset();
+            if (result_.status == Status::unchanged)
+                because(Reason::shared_faces, "no band can grow: its faces are also crossed by " + numbered(result_.held_back_by));
+            return;
+        }
+        exclusion_ = partition->exclusion(number, *patch_);
+        exclusion_.own = {expressed(given_, steiner_), expressed(result_.contour, steiner_)};
+    }
+    band_ = stopwatch_.time("band", [&] { return grow_band(surface_, *patch_, phase_options_, constraints_, exclusion_); });
+}
+
+void ContourOptimization::search(Partition* partition, int number, const Beat& beat) {
+    if (!patch_) return;
+    if (partition) {
+        partition->close(number, *patch_, exclusion_);
+        result_.held_back_by = partition->held_back_by(number, *patch_, band_);
+    }
+    const Flow flow = stopwatch_.time("flow", [&] { return make_flow(*patch_, band_, options_); });
+    if (beat) beat();
+    stopwatch_.time("curvature", [&] { prepare_curvature(beat); });
+    const std::optional<EdgeForm> region = make_region_form(*patch_, flow);
+    const ContourGraph graph = stopwatch_.time("graph", [&] {
+        return make_graph(surface_, *patch_, band_, flow, context_->energy, options_, constraints_, steiner_,
+                          region ? &*region : nullptr, exclusion_, beat);
+    });
+    const RatioResult best = stopwatch_.time("ratio", [&] { return minimum_ratio(graph.search, search_options(beat)); });
+    count(graph, best);
+    if (!feasible_ && !best.found) throw Infeasible(where_it_stops(graph, constraints_, result_.held_back_by));
+    const double before = feasible_ ? result_.objective : std::numeric_limits<double>::infinity();
+    if (best.found) accept(trace_contour(graph, *patch_, best.nodes), region);
+    searched_ |= best.found;
+    // The graph's objective and the measured one may differ by rounding.
+    result_.lower_bound = best.found ? std::min(best.lower_bound, result_.objective) : result_.objective;
+    result_.gap = result_.objective - result_.lower_bound;
+    result_.history.push_back(result_.objective);
+    explain(best);
+    moved_ = below(result_.objective, before);
+    moving_ = moved_ && !featureless();
+}
+
+/// Evaluates the curvature of all vertices of the band at once.
+void ContourOptimization::prepare_curvature(const Beat& beat) const {
+    std::vector<int> vertices;
+    for (std::size_t v = 0; v < patch_->vertex.size(); ++v) {
+        if (band_.side[v] != Side::outside) vertices.push_back(patch_->vertex[v]);
+    }
+    context_->field.prepare(vertices, beat);
+}
+
+Result ContourOptimization::finish() {
+    if (!feasible_)
+        throw Infeasible("the given contour lacks required elements, and " +
+                         (result_.reason.empty() ? "no iteration was asked for" : result_.reason));
+    if (searched_ && featureless()) explain_featureless();
+    // What was won along mesh edges may be lost with the Steiner points of a last phase that found nothing.
+    const bool lost = result_.status == Status::improved && !below(result_.objective, result_.initial_objective);
+    if (result_.status == Status::improved && (lost || (searched_ && featureless()))) keep_given();
+    if (lost) because(Reason::none_refined, "no better contour was found across faces");
+    return result_;
+}
+
+Result ContourOptimization::cancelled() const {
+    Result result;
+    result.contour = given_;
+    result.status = Status::cancelled;
+    result.reason_code = Reason::cancelled;
+    result.reason = "cancelled";
+    result.ratio = result.initial_ratio = result_.initial_ratio;
+    result.objective = result.initial_objective = result.lower_bound = result_.initial_objective;
+    result.history = {result_.initial_objective};
+    result.scales = result_.scales;
+    return result;
+}
+
+/// True where objective a is below b by more than rounding.
+bool ContourOptimization::below(double a, double b) const {
+    const double unit = options_.length_bias == 0.0 ? context_->energy.unit() : 1.0;
+    return std::isinf(b) ? a < b : a < b - 1e-12 * std::max({unit, std::abs(a), std::abs(b)});
+}
+
+/// The search begins at what the current contour suggests.
+RatioOptions ContourOptimization::search_options(const Beat& beat) const {
+    RatioOptions options;
+    options.beat = beat;
+    options.objective = context_->energy.objective();
+    options.guess = Terminal{-1, current_.numerator, current_.length};
+    return options;
+}
+
+std::optional<EdgeForm> ContourOptimization::make_region_form(const Patch& patch, const Flow& flow) const {
+    if (constraints_.region_density.empty() || options_.region_weight == 0.0) return std::nullopt;
+    return region_form(surface_, patch, band_, flow, constraints_.region_density, enclosed_);
+}
+
+void ContourOptimization::accept(const Contour& found, const std::optional<EdgeForm>& region) {
+    const double enclosed = region ? region->along(found) : 0.0;
+    const Measure measured = measure(surface_, context_->energy, found, steiner_, enclosed);
+    if (!below(best_found_, measured.objective)) result_.salience = measured.salience;
+    best_found_ = std::min(best_found_, measured.objective);
+    if (feasible_ && !below(measured.objective, result_.objective)) return;
+    result_.contour = found;
+    result_.ratio = measured.ratio;
+    result_.objective = measured.objective;
+    if (result_.status != Status::constrained) result_.status = feasible_ ? Status::improved : Status::constrained;
+    feasible_ = true;
+    current_ = measured;
+    enclosed_ = enclosed;
+}
+
+/// Nothing concave was found to go to (min_salience).
+bool ContourOptimization::featureless() const {
+    return result_.salience < options_.min_salience.value_or(-std::numeric_limits<double>::infinity());
+}
+
+void ContourOptimization::explain_featureless() {
+    std::ostringstream reason;
+    reason << "there is nothing concave to find here: the best contour's salience is " << result_.salience << ", below "
+           << options_.min_salience.value_or(0.0);
+    because(Reason::not_salient, reason.str());
+}
+
+void ContourOptimization::because(Reason code, std::string words) {
+    result_.reason_code = code;
+    result_.reason = std::move(words);
+}
+
+/// Puts the given contour back. The certificate stays that of the best found, where the given contour is not better still.
+void ContourOptimization::keep_given() {
+    result_.contour = given_;
+    result_.status = Status::unchanged;
+    result_.ratio = result_.initial_ratio;
+    result_.objective = result_.initial_objective;
+    const double best = std::min(result_.lower_bound + result_.gap, result_.initial_objective);
+    result_.lower_bound = std::min(result_.lower_bound, result_.initial_objective);
+    result_.gap = best - result_.lower_bound;
+}
+
+void ContourOptimization::explain(const RatioResult& best) {
+    because(Reason::none, {});
+    if (result_.status != Status::unchanged) return;
+    if (band_.polygons.empty()) {
+        because(Reason::no_room, "nothing can grow around the contour: its faces touch it all round");
+    } else if (!best.found) {
+        because(Reason::against_flow, "no contour in the band runs along with the flow");
+    } else {
+        because(Reason::already_best, "the given contour is already the best in its band");
+    }
+    if (!result_.held_back_by.empty()) result_.reason += ", and " + numbered(result_.held_back_by) + " kept the band back";
+}
+
+void ContourOptimization::count(const ContourGraph& graph, const RatioResult& best) {
+    Statistics& s = result_.statistics;
+    s.faces = static_cast<int>(band_.polygons.size());
+    s.cut = graph.crossing;
+    s.nodes = static_cast<int>(graph.chords.size());
+    s.arcs = graph.search.arc_count();
+    s.linear_steps = best.steps;
+    s.passes = best.passes;
+}
+
+}  // namespace mrc

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "beat.h"
+
+#include <mrc/curvature.h>
+#include <mrc/options.h>
+#include <mrc/surface.h>
+
+#include <memory>
+#include <span>
+
+namespace mrc {
+
+/// The curvature tensor of the surface (3.4), evaluated where it is asked for and remembered.
+///
+/// It depends on the surface and on h alone. Eq. 3.4 is averaged over the part of a ball of radius `curvature_radius` h that hangs
+/// together with the vertex along the surface, then smoothed with a Gaussian of sigma `curvature_smoothing` h in the distance
+/// along the surface. Hidden faces count. The surface must outlive the field.
+class CurvatureField {
+  public:
+    /// `h`: the mean edge length, above 0.
+    CurvatureField(const Surface& surface, double h, const Options& options);
+    ~CurvatureField();
+    CurvatureField(CurvatureField&&) noexcept;
+
+    /// Evaluates it at many vertices at once, which is faster than one by one.
+    void prepare(std::span<const int> vertices, const Beat& beat = {}) const;
+    VertexCurvature at(int vertex) const;
+
+    /// The signed dihedral angle of a half-edge's edge in radians: positive convex, negative concave, 0 on borders. Faces folded
+    /// flat onto each other count as concave, since rounding alone would decide.
+    double dihedral(int halfedge) const;
+
+  private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// The polygon's area vector (Newell): normal times area, whatever its triangulation.
+Vec3 polygon_area_vector(const Surface& surface, int face);
+
+/// Polygon normals weighted by corner angle, unit; the z axis where they cancel.
+Vec3 vertex_normal(const Surface& surface, int vertex);
+
+/// Equal shares of the areas of the polygons at a vertex.
+double vertex_area(const Surface& surface, int vertex);
+
+}  // namespace mrc
