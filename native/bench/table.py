@@ -10,6 +10,8 @@ from runs import Runs
 
 BEFORE_RATIO = ["patch", "curvature", "band", "flow", "graph"]
 STAGES = [*BEFORE_RATIO, "ratio"]
+TABLE = Path(__file__).with_name("TABLE.md")
+BY_HAND = "<!-- From here on written by hand: native/bench/run keeps it. -->"
 
 # Tables 5.1 and 5.2, in the order of real_bench.THESIS_BANDS: faces, size of cut, nodes, arcs, most linear steps,
 # seconds before the minimum ratio and for it, in an iteration.
@@ -279,7 +281,8 @@ def document(runs, real, quick):
     context = runs.context
     yield "# Benchmarks"
     about = f"`native/bench/run` wrote this; {context['num_cpus']} processors of {context['mhz_per_cpu']:,} MHz. "
-    about += "Each ratio is taken in one run; times are medians, of processor time where one thread works."
+    about += "Each ratio is taken in one run; times are medians, of processor time where one thread works. "
+    about += "What they mean is explained [at the end](#what-the-figures-mean)."
     if quick:
         about += " **A smoke run with `--quick`: its figures mean nothing.**"
     yield about
@@ -288,6 +291,12 @@ def document(runs, real, quick):
         if note:
             yield note
         yield table
+    yield explanations()
+
+
+def explanations():
+    """The end of TABLE.md, which is written by hand."""
+    return BY_HAND + TABLE.read_text(encoding="utf-8").partition(BY_HAND)[2].rstrip("\n")
 
 
 def main():
@@ -298,7 +307,8 @@ def main():
     parser.add_argument("--quick", action="store_true")
     arguments = parser.parse_args()
     parts = document(Runs(*arguments.benchmarks), json.loads(arguments.real.read_text()), arguments.quick)
-    arguments.output.write_text("\n\n".join(parts) + "\n")
+    text = "\n\n".join(parts) + "\n"  # before the file is opened: its end is kept
+    arguments.output.write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":
