@@ -14,7 +14,7 @@ import pytest
 from made_meshes import GROOVE, START, edge_set, edit, grooved_cylinder, pairs, ring, set_flag
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "blend_samples"))
-README = Path(__file__).resolve().parents[2] / "README.md"
+ROOT = Path(__file__).resolve().parents[2]
 improve_seams = importlib.import_module("improve_seams")
 
 
@@ -60,11 +60,13 @@ def test_seams_move_and_the_other_file_has_them(files, monkeypatch, capfd):
     assert seams(given) == edge_set(START)
 
 
-def test_the_readme_s_command_line(files, monkeypatch, capfd):
+@pytest.mark.parametrize("page", ["README.md", "addon/README.md"])
+def test_the_documents_command_line(page, files, monkeypatch, capfd):
     given, written = files
-    (line,) = re.findall(r"^    (blender .*improve_seams.py.*)$", README.read_text(encoding="utf-8"), re.MULTILINE)
+    text = (ROOT / page).read_text(encoding="utf-8")
+    (line,) = re.findall(r"^    (blender .*improve_seams.py.*)$", text, re.MULTILINE)
     words = shlex.split(line)
-    assert (README.parent / words[words.index("--python") + 1]).samefile(improve_seams.__file__)
+    assert (ROOT / words[words.index("--python") + 1]).samefile(improve_seams.__file__)
     places = {"in.blend": given, "out.blend": written}
     arguments = [places.get(word, word) for word in words[words.index("--") + 1 :]]
     code, summary = run(monkeypatch, capfd, *arguments)

@@ -46,6 +46,12 @@ def test_the_wheel_holds_module_library_stubs_and_licenses(packages, version):
     assert "manylinux" in packages["wheel"].name
 
 
+def test_the_wheel_shows_its_own_page(packages, version):
+    metadata = contents(packages["wheel"])[f"mrcontour-{version}.dist-info/METADATA"].decode()
+    assert "Description-Content-Type: text/markdown" in metadata
+    assert (ROOT / "native" / "python" / "README.md").read_text(encoding="utf-8").strip() in metadata
+
+
 def test_the_extension_holds_the_python_the_manifest_and_the_wheel(packages):
     wheel = f"wheels/{packages['wheel'].name}"
     assert set(names(packages["extension"])) == SOURCES | {"blender_manifest.toml", wheel}

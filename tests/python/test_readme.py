@@ -1,58 +1,124 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The README's Python examples do what they say; those for Blender are tests/blender's."""
+"""The documents: their examples run and do what they say, and their links lead somewhere. Examples for Blender are run
+by tests/blender."""
 
 import re
 from pathlib import Path
 
+import mrcontour as mrc
 import numpy as np
 import pytest
 
-README = Path(__file__).resolve().parents[2] / "README.md"
+ROOT = Path(__file__).resolve().parents[2]
+README, WHEEL_PAGE, ADDON_PAGE = ROOT / "README.md", ROOT / "native/python/README.md", ROOT / "addon/README.md"
+FOLDERS = (".github", "addon", "blend_samples", "native", "tests")
+PAGES = sorted([*ROOT.glob("*.md"), *(page for folder in FOLDERS for page in (ROOT / folder).rglob("*.md"))])
 PNG = b"\x89PNG\r\n\x1a\n"
 
 
-def examples():
-    code = re.findall(r"```python\n(.*?)```", README.read_text(encoding="utf-8"), re.DOTALL)
-    return [example for example in code if "import bpy" not in example]
+def name(page):
+    return page.relative_to(ROOT).as_posix()
+
+
+def blocks(page, language):
+    return re.findall(rf"```{language}\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
+
+
+def examples(page):
+    return [code for code in blocks(page, "python") if "import bpy" not in code]
+
+
+def executed(page, codes, names):
+    for code in codes:
+        exec(compile(code, name(page), "exec"), names)  # noqa: S102
+    return names
 
 
 @pytest.fixture
 def run(tmp_path, monkeypatch):
-    """The names that the examples leave, one after the other, in a folder of their own and without a screen."""
+    """Runs examples of a page one after the other, in a folder of their own and without a screen; gives their names."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "agg")
-    names = {}
-    for code in examples():
-        exec(compile(code, "README.md", "exec"), names)  # noqa: S102
-    return names
+    return lambda page, codes: executed(page, codes, {})
 
 
-def test_there_are_examples():
-    first, second = examples()
-    assert "import mrcontour" in first
-    assert "optimize_all" in second
+def test_every_page_with_examples_is_run():
+    assert {page for page in PAGES if blocks(page, "python")} == {README, WHEEL_PAGE, ADDON_PAGE}
+    assert examples(ADDON_PAGE) == []
 
 
-def test_the_example_for_the_module_finds_the_waist_and_plots_it(run, tmp_path):
-    assert run["result"].status == "improved"
-    assert np.allclose(run["result"].positions[:, 2], 0.2)
+def test_the_readme_s_example_finds_the_waist_and_plots_it(run, tmp_path):
+    names = run(README, examples(README))
+    assert names["result"].status == "improved"
+    assert np.allclose(names["result"].positions[:, 2], 0.2)
     assert (tmp_path / "waist.png").read_bytes().startswith(PNG)
 
 
-def test_the_example_for_several_contours_says_what_comes_out(run):
-    said = re.search(r"# (\S+) (\(.*\))\n", examples()[1])
-    assert np.isclose(run["near"].positions[0, 2], float(said[1]))
-    assert str(run["far"].held_back_by) == said[2]
+def test_the_wheel_s_examples_do_what_they_say(run):
+    first, several, across, *_ = examples(WHEEL_PAGE)
+    names = run(WHEEL_PAGE, [first, several, across])
+    assert set(names["result"].vertices // 24) == {11}
+    said = re.search(r"# (\S+) (\(.*\))\n", several)
+    assert np.isclose(names["near"].positions[0, 2], float(said[1]))
+    assert str(names["far"].held_back_by) == said[2]
+    assert 24 * 12 + 5 in names["across"].vertices
 
 
-@pytest.mark.parametrize("page", [README, README.parent / "blend_samples" / "README.md"], ids=["readme", "gallery"])
+@pytest.mark.skipif(not hasattr(mrc, "check_contour"), reason="this build has no check_contour")
+def test_the_wheel_s_examples_of_settings_and_errors(run, capsys):
+    run(WHEEL_PAGE, examples(WHEEL_PAGE))
+    said = re.search(r"# (\[.*\])\n", examples(WHEEL_PAGE)[-1])
+    assert capsys.readouterr().out.splitlines()[-1] == said[1]
+
+
+def test_the_readme_s_lines_of_cpp_are_those_of_a_program_that_is_built():
+    program = (ROOT / "tests/install/main.cpp").read_text(encoding="utf-8")
+    (code,) = blocks(README, "cpp")
+    assert [line for line in code.splitlines() if line not in [known.strip() for known in program.splitlines()]] == []
+
+
+def test_the_lines_of_cmake_are_those_of_a_project_that_is_built():
+    project = (ROOT / "tests/install/CMakeLists.txt").read_text(encoding="utf-8").splitlines()
+    (code,) = blocks(ROOT / "native/README.md", "cmake")
+    assert [line for line in code.splitlines() if line not in project] == []
+
+
+def test_the_readme_is_short():
+    assert len(README.read_text(encoding="utf-8").splitlines()) <= 150
+
+
+def anchors(page):
+    """What GitHub makes of the headings."""
+    titles = re.findall(r"^#+ (.*)$", page.read_text(encoding="utf-8"), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
+def leads_somewhere(page, link):
+    path, _, anchor = link.partition("#")
+    target = (page.parent / path).resolve() if path else page
+    return target.exists() and (not anchor or anchor in anchors(target))
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name)
 def test_what_a_page_links_to_is_there(page):
-    linked = re.findall(r"\]\(([^)#]+)\)", page.read_text(encoding="utf-8"))
-    assert linked
-    assert not [link for link in linked if not (page.parent / link).exists()]
+    text = re.sub(r"```.*?```", "", page.read_text(encoding="utf-8"), flags=re.DOTALL)
+    relative = [link for link in re.findall(r"\]\(([^)]+)\)", text) if "://" not in link]
+    assert [link for link in relative if not leads_somewhere(page, link)] == []
+
+
+@pytest.mark.parametrize("page", [README, ROOT / "blend_samples/README.md"], ids=name)
+def test_a_page_with_pictures_shows_them(page):
+    assert re.findall(r"!\[[^\]]*\]\([^)]+\.png\)", page.read_text(encoding="utf-8"))
+
+
+def test_the_end_of_the_benchmarks_table_survives_a_new_one(monkeypatch):
+    monkeypatch.syspath_prepend(str(ROOT / "native/bench"))
+    table = __import__("table")
+    assert table.TABLE.read_text(encoding="utf-8").endswith("\n\n" + table.explanations() + "\n")
+    assert "## What the figures mean" in table.explanations()
 
 
 def test_the_gallery_s_files_are_small():
-    files = sorted((README.parent / "blend_samples").glob("*.blend"))
+    files = sorted((ROOT / "blend_samples").glob("*.blend"))
     assert "character.blend" in [file.name for file in files]
     assert not [file.name for file in files if file.stat().st_size >= 2**20]
