@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws the README's pictures of the add-on in Blender's window, on the hand: panel, live contour, curvature.
+"""Draws the manual's pictures of the add-on in Blender's window, on the hand: panel, live contour, curvature.
 
 BLENDER_USER_SCRIPTS=build/release xvfb-run -a -s "-screen 0 1600x1000x24" env LIBGL_ALWAYS_SOFTWARE=1 blender \
     --factory-startup --window-geometry 0 0 1600 1000 --enable-event-simulate --python blend_samples/draw_window.py \
