@@ -14,26 +14,31 @@ bl_info = {
 }
 
 # An upgrade in a running Blender reloads this file alone: forget the others, so that they are loaded anew. The compiled
-# module cannot be; native.py tells it from the version that belongs here.
+# module cannot be; core/native.py tells it from the version that belongs here.
 for _name in [name for name in sys.modules if name.startswith(__name__ + ".") and not name.endswith(".mrcontour")]:
     del sys.modules[_name]
-    globals().pop(_name.rpartition(".")[2], None)
+    globals().pop(_name.removeprefix(__name__ + "."), None)  # modules and folders beside this file
 
 
 def _modules():
     # Imported here, not above: the modules that do without bpy can then be imported outside Blender.
-    from . import adjust, api, menus, network_operators, operators, panels, preferences, presets
-    from . import show_curvature as colors
-    from . import show_directions as directions
+    from .ui import adjust, menus, network_operators, operators, panels, preferences, presets
+    from .ui import show_curvature as colors
+    from .ui import show_directions as directions
 
-    return api, operators, adjust, network_operators, colors, directions, panels, preferences, presets, menus
+    return operators, adjust, network_operators, colors, directions, panels, preferences, presets, menus
 
 
 def register():
+    from . import api  # noqa: F401  loaded with the add-on, for scripts
+
     for module in _modules():
         module.register()
 
 
 def unregister():
+    from .mesh import surface_cache
+
     for module in reversed(_modules()):
         module.unregister()
+    surface_cache.forget()

@@ -98,7 +98,7 @@ def improve(api, obj, settings):
 def run():
     """What is printed; writes the file where nothing failed."""
     name = addon_module()
-    parameters = importlib.import_module(name + ".parameters")
+    parameters = importlib.import_module(name + ".core.parameters")
     given, settings = read_arguments({setting: parameters.SETTINGS[setting] for setting in parameters.NETWORK})
     api = importlib.import_module(name + ".api")
     try:

@@ -107,9 +107,9 @@ def enable_addon():
     module = addon_utils.enable("minimum_ratio_contours", default_set=True)
     if module is None:
         raise SystemExit("The add-on minimum_ratio_contours is not in the folder that BLENDER_USER_SCRIPTS names.")
-    from minimum_ratio_contours import api, native
+    from minimum_ratio_contours import api
 
-    return api, native.module()
+    return api, api.native_module()
 
 
 def mark_seam(sample, name, found):
@@ -158,7 +158,7 @@ def outcome(result):
 def searched(sample, name, api, mrc):
     """The faces of the bands of all iterations, each grown from the contour that the one before found."""
     surface, faces, loop = api.surface_of(sample.ob), [], sample.loops[name]
-    options = api.parameters.native_options(**sample.settings[name])
+    options = api.native_options(**sample.settings[name])
     for done in range(1, options["iterations"] + 1):
         faces.append(mrc.band(surface, loop, options=mrc.Options(**options)))
         loop = api.optimize_on(surface, sample.loops[name], **sample.settings[name], iterations=done).vertices

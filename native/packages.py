@@ -50,13 +50,19 @@ def manifest(wheel):
     return text + f'platforms = ["{platform}"]\nwheels = ["./wheels/{wheel.name}"]\n'
 
 
+def sources():
+    """The add-on's Python files, by their names in the package."""
+    return {path.relative_to(ADDON).as_posix(): path for path in sorted(ADDON.rglob("*.py"))}
+
+
 def build_extension(wheel, output, tool):
     """Blender's own tool builds and validates the extension from a folder that holds nothing else."""
     package = output / package_name([wheel], "extension")
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
-        for source in ADDON.glob("*.py"):
-            shutil.copyfile(source, folder / source.name)
+        for name, source in sources().items():
+            (folder / name).parent.mkdir(exist_ok=True)
+            shutil.copyfile(source, folder / name)
         (folder / "blender_manifest.toml").write_text(manifest(wheel), encoding="utf-8")
         (folder / "wheels").mkdir()
         shutil.copyfile(wheel, folder / "wheels" / wheel.name)
@@ -71,7 +77,7 @@ def build_extension(wheel, output, tool):
 def build_legacy(wheels, output):
     """One folder with the add-on, the modules for all Pythons, the libraries that they need, and the licenses."""
     package = output / package_name(wheels, "legacy")
-    files = {"": b""} | {source.name: source.read_bytes() for source in ADDON.glob("*.py")}
+    files = {"": b""} | {name: source.read_bytes() for name, source in sources().items()}
     for wheel in wheels:
         files |= _library_files(wheel)
     with ZipFile(package, "w", ZIP_DEFLATED) as content:

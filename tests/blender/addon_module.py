@@ -27,8 +27,8 @@ def enable():
 
 def _give_short_names(package):
     """The same modules under both names: a second import would make second classes and caches."""
-    for found in pkgutil.iter_modules(package.__path__):
-        importlib.import_module(f"{package.__name__}.{found.name}")
+    for found in pkgutil.walk_packages(package.__path__, package.__name__ + "."):
+        importlib.import_module(found.name)
     for name, module in list(sys.modules.items()):
         if name == package.__name__ or name.startswith(package.__name__ + "."):
             sys.modules[NAME + name.removeprefix(package.__name__)] = module

@@ -21,7 +21,8 @@ bpy.ops.preferences.addon_enable(module="minimum_ratio_contours")
 
 from bench_meshes import GROOVE, grooved_tube, milliseconds, square  # noqa: E402
 from made_meshes import edit, pairs, select, set_flag  # noqa: E402
-from minimum_ratio_contours import api, mesh_access  # noqa: E402
+from minimum_ratio_contours import api  # noqa: E402
+from minimum_ratio_contours.mesh.arrays import read_arrays, synchronize  # noqa: E402
 
 REPETITIONS = 5
 LOOP = square(GROOVE - 10, 100, 25)
@@ -52,7 +53,7 @@ class Bench:
         self.cases = {
             HAND_OVER[0]: (self._select, self.obj.update_from_editmode),
             HAND_OVER[1]: (self._synchronize, lambda: plain_arrays(self.obj.data)),
-            "the add-on's arrays": (self._synchronize, lambda: mesh_access.read_arrays(self.obj)),
+            "the add-on's arrays": (self._synchronize, lambda: read_arrays(self.obj)),
         }
         for output in ("SELECT", "SEAM", "SHARP"):
             self._add(output, self._select, lambda output=output: self._optimize(output))
@@ -101,7 +102,7 @@ class Bench:
         select(self.obj, pairs(LOOP))
 
     def _keep(self):
-        mesh_access.synchronize(self.obj)
+        synchronize(self.obj)
         api.surface_of(self.obj)
 
     def _optimize(self, output, **settings):

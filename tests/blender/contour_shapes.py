@@ -147,7 +147,7 @@ def read_attribute(obj, name, field, width):
 
 def cut_mesh(obj, contours, merge=0.0):
     """Cuts in Object Mode; gives the chains of vertex ids."""
-    from minimum_ratio_contours import cutting
+    from minimum_ratio_contours.mesh import cutting
 
     bm = bmesh.new()
     bm.from_mesh(obj.data)

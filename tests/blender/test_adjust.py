@@ -17,7 +17,7 @@ from made_meshes import (
     rough_loop,
     select,
 )
-from minimum_ratio_contours import adjust_state, native
+from minimum_ratio_contours.core import native, preview_state
 
 LOOP = rough_loop(GROOVE - 4)
 ABOVE = (GROOVE + 1) * SEGMENTS + 5
@@ -149,4 +149,4 @@ def test_it_needs_edit_mode():
 
 def test_the_keys_go_through_all_outputs():
     items = ADJUST.get_rna_type().properties["output"].enum_items
-    assert tuple(item.identifier for item in items) == adjust_state.OUTPUTS
+    assert tuple(item.identifier for item in items) == preview_state.OUTPUTS

@@ -6,7 +6,8 @@ import bpy
 import numpy as np
 import pytest
 from made_meshes import GROOVE, SEGMENTS, edge_set, edit, everything, grooved_cylinder, ring, rough_loop
-from minimum_ratio_contours import api, mesh_access
+from minimum_ratio_contours import api
+from minimum_ratio_contours.mesh.arrays import read_arrays
 
 
 def test_object_mode():
@@ -59,7 +60,7 @@ def test_bad_input_is_named():
 def test_arrays():
     obj = grooved_cylinder()
     obj.data.polygons[7].hide = True
-    arrays = mesh_access.read_arrays(obj)
+    arrays = read_arrays(obj)
     faces = len(obj.data.polygons)
     assert arrays.positions.dtype == np.float64
     assert arrays.positions.shape == (len(obj.data.vertices), 3)
@@ -70,3 +71,27 @@ def test_arrays():
     for array in (arrays.face_offsets, arrays.face_vertices, arrays.triangles, arrays.hidden_faces):
         assert array.dtype == np.int32
         assert array.flags.c_contiguous
+
+
+def test_every_name_for_scripts_is_there_and_explained():
+    promised = "optimize_contour optimize_on optimize_all_on problem_on optimize_seams optimize_segmentation curvature"
+    promised += " surface_of arrays_and_surface_of are_current forget native_module native_options"
+    assert set(promised.split()) == set(api.__all__)
+    assert all(getattr(api, name).__doc__ for name in api.__all__)
+
+
+def test_scripts_may_call_the_native_module_themselves():
+    obj, mrc = grooved_cylinder(), api.native_module()
+    edit(obj)
+    surface, options = api.surface_of(obj), mrc.Options(**api.native_options(width=5))
+    result = mrc.optimize(surface, rough_loop(GROOVE - 3), options=options)
+    np.testing.assert_array_equal(result.vertices, api.optimize_contour(obj, rough_loop(GROOVE - 3), width=5).vertices)
+
+
+def test_the_surface_is_that_of_the_mesh_as_it_is_in_edit_mode():
+    obj = grooved_cylinder()
+    edit(obj)
+    before = api.surface_of(obj)
+    assert api.surface_of(obj) is before
+    bmesh.from_edit_mesh(obj.data).verts[:][0].co.x += 1
+    assert api.surface_of(obj) is not before

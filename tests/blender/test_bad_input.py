@@ -24,7 +24,7 @@ from made_meshes import (
     torus,
     torus_ring,
 )
-from minimum_ratio_contours import native
+from minimum_ratio_contours.core import native
 
 
 def cancelled(obj, **properties):

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 import pytest
 from minimum_ratio_contours import api
-from minimum_ratio_contours.parameters import preset_values
+from minimum_ratio_contours.core.parameters import preset_values
 
 SAMPLES = Path(__file__).resolve().parents[2] / "blend_samples"
 sys.path.insert(0, str(SAMPLES))

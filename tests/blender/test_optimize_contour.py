@@ -25,7 +25,7 @@ from made_meshes import (
     select_faces_below,
     set_flag,
 )
-from minimum_ratio_contours import contours
+from minimum_ratio_contours.core import edge_paths
 
 
 def start(mode="EDGE", loop=START):
@@ -124,7 +124,7 @@ def test_two_loops_beside_one_groove_do_not_both_take_it():
     select(obj, pairs(rough_loop(GROOVE + 1)))
     run(output="SEAM")
     seams = flagged(obj, "seam")
-    loops = contours.sort_edges([sorted(edge) for edge in seams])
+    loops = edge_paths.sort_edges([sorted(edge) for edge in seams])
     assert len(loops.loops) == 2
     assert not loops.branching
 

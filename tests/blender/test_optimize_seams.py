@@ -25,7 +25,9 @@ from made_meshes import (
     torus,
     torus_ring,
 )
-from minimum_ratio_contours import api, mesh_access, native, parameters
+from minimum_ratio_contours import api
+from minimum_ratio_contours.core import native, parameters
+from minimum_ratio_contours.mesh.arrays import synchronize
 
 
 def start(seams, **more):
@@ -324,10 +326,10 @@ def test_api(mode):
     (result,) = api.optimize_seams(obj)
     assert result.status == "improved"
     assert edge_set(result.vertices.tolist()) == edge_set(ring(GROOVE))
-    mesh_access.synchronize(obj)
+    synchronize(obj)
     assert seam_set(obj.data) == edge_set(START)
     api.optimize_seams(obj, apply=True)
-    mesh_access.synchronize(obj)
+    synchronize(obj)
     assert seam_set(obj.data) == edge_set(ring(GROOVE))
 
 

@@ -8,7 +8,9 @@ import bpy
 import numpy as np
 import pytest
 from made_meshes import GROOVE, RINGS, SEGMENTS, edit, everything, grooved_cylinder, mesh_object
-from minimum_ratio_contours import api, native, segmentation
+from minimum_ratio_contours import api
+from minimum_ratio_contours.core import native
+from minimum_ratio_contours.mesh import segmentation
 
 SOURCES = ("FACE_SETS", "MATERIAL", "ATTRIBUTE")
 NAMES = {"FACE_SETS": segmentation.FACE_SETS, "ATTRIBUTE": "Part"}

@@ -30,7 +30,7 @@ from made_meshes import (
     torus,
     torus_ring,
 )
-from minimum_ratio_contours import contours
+from minimum_ratio_contours.core import edge_paths
 
 REFINED = {"refinement": 2, "min_salience": 0.0}
 
@@ -91,7 +91,7 @@ def test_a_refined_contour_is_cut_into_the_faces(output):
     assert len(bm_of(obj).faces) > faces
     assert is_sound(obj)
     selected = flagged(obj, "select")
-    loops = contours.sort_edges([sorted(edge) for edge in selected])
+    loops = edge_paths.sort_edges([sorted(edge) for edge in selected])
     assert (len(loops.loops), loops.chains, loops.branching) == (1, [], [])
     assert flagged(obj, "seam") == (selected if output == "SEAM" else set())
     assert flagged(obj, "sharp") == (selected if output == "SHARP" else set())
@@ -410,7 +410,7 @@ def test_face_mode_selects_the_faces_of_the_improved_part(output):
     inside = [face for face in selected if face.calc_center_median().z > 0.2 * GROOVE + 1.2]
     assert not inside
     border = [edge for edge in bm.edges if len({face.select for face in edge.link_faces}) == 2]
-    pieces = contours.sort_edges([sorted(vertex.index for vertex in edge.verts) for edge in border])
+    pieces = edge_paths.sort_edges([sorted(vertex.index for vertex in edge.verts) for edge in border])
     assert not pieces.chains
     assert not pieces.branching
     assert len(pieces.loops) == (0 if output == "RIP" else 2)

@@ -5,7 +5,7 @@ from collections import Counter
 
 import bpy
 import pytest
-from minimum_ratio_contours import adjust, network_operators, operators
+from minimum_ratio_contours.ui import adjust, network_operators, operators
 
 OPERATORS = (
     operators.MESH_OT_optimize_contour,

@@ -19,7 +19,9 @@ from made_meshes import (
     select,
     set_flag,
 )
-from minimum_ratio_contours import api, mesh_access, parameters
+from minimum_ratio_contours import api
+from minimum_ratio_contours.core import parameters
+from minimum_ratio_contours.mesh.arrays import synchronize
 from test_optimize_seams import hide_some, islands, random_seams
 from test_optimize_segmentation import NAMES, SOURCES, get_labels, pieces, ragged, random_labels, set_labels
 from test_optimize_segmentation import random_body as any_body
@@ -286,7 +288,7 @@ def test_scripts_cut_seams(mode):
     obj = tilted_seam()
     bpy.ops.object.mode_set(mode=mode)
     (result,) = api.optimize_seams(obj, apply=True, **REFINED)
-    mesh_access.synchronize(obj)
+    synchronize(obj)
     seam = {v for edge in obj.data.edges if edge.use_seam for v in edge.vertices}
     distances = np.linalg.norm(
         np.array([obj.data.vertices[v].co for v in seam])[:, None] - result.positions[None], axis=2

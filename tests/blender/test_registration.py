@@ -7,7 +7,7 @@ import addon_utils
 import bpy
 import minimum_ratio_contours
 import pytest
-from minimum_ratio_contours import native
+from minimum_ratio_contours.core import native
 
 MODULE = minimum_ratio_contours.__name__  # longer where it is an extension
 

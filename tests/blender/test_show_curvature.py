@@ -6,7 +6,8 @@ import bpy
 import numpy as np
 import pytest
 from made_meshes import GROOVE, SEGMENTS, edit, everything, grooved_cylinder, mesh_object, ring
-from minimum_ratio_contours import api, show_curvature
+from minimum_ratio_contours import api
+from minimum_ratio_contours.ui import show_curvature
 
 
 def run(**properties):

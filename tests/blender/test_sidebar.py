@@ -20,7 +20,9 @@ from made_meshes import (
     select,
     set_flag,
 )
-from minimum_ratio_contours import menus, panels, parameters, preferences, presets, segmentation
+from minimum_ratio_contours.core import parameters
+from minimum_ratio_contours.mesh import segmentation
+from minimum_ratio_contours.ui import menus, panels, preferences, presets
 
 WINDOW_ONLY = "mesh.show_curvature_directions"  # the tests of the window run it
 

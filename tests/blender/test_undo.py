@@ -20,7 +20,9 @@ from made_meshes import (
     select,
     set_flag,
 )
-from minimum_ratio_contours import api, mesh_access, native
+from minimum_ratio_contours import api
+from minimum_ratio_contours.core import native
+from minimum_ratio_contours.mesh.arrays import synchronize
 
 
 @pytest.fixture
@@ -51,7 +53,7 @@ def cylinder():
 
 
 def surface():
-    mesh_access.synchronize(cylinder())
+    synchronize(cylinder())
     return api.surface_of(cylinder())
 
 

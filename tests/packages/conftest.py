@@ -93,5 +93,5 @@ def packages(pytestconfig):
 @pytest.fixture(scope="session")
 def version():
     """The add-on's, as its source says it."""
-    source = (ROOT / "addon" / "native.py").read_text(encoding="utf-8")
+    source = (ROOT / "addon" / "core" / "native.py").read_text(encoding="utf-8")
     return only(re.findall(r'^VERSION = "(.*?)"', source, re.MULTILINE))

@@ -72,7 +72,7 @@ def state():
     enabled = MODULE in bpy.context.preferences.addons
     found = {"installed": installed, "enabled": enabled, "operator": hasattr(bpy.types, "MESH_OT_optimize_contour")}
     if enabled:
-        native = importlib.import_module(MODULE + ".native")
+        native = importlib.import_module(MODULE + ".core.native")
         found |= {"says": optimize(), "problem": native.problem(), "version": native.VERSION}
         library = sys.modules.get(MODULE + ".mrcontour") or sys.modules.get("mrcontour")
         found["library"] = getattr(library, "__version__", None)

@@ -67,9 +67,9 @@ def source(tmp_path):
     """The repository's folder addon, zipped as people do."""
     package = tmp_path / "minimum_ratio_contours.zip"
     with ZipFile(package, "w") as content:
-        for path in (ROOT / "addon").iterdir():
-            if path.is_file():
-                content.write(path, f"minimum_ratio_contours/{path.name}")
+        for path in (ROOT / "addon").rglob("*"):
+            if path.is_file() and "__pycache__" not in path.parts:
+                content.write(path, f"minimum_ratio_contours/{path.relative_to(ROOT / 'addon').as_posix()}")
     return package
 
 

@@ -11,7 +11,8 @@ import pytest
 import tomllib
 from conftest import ROOT, only
 
-SOURCES = {path.name for path in (ROOT / "addon").glob("*.py")}
+ADDON = ROOT / "addon"
+SOURCES = {path.relative_to(ADDON).as_posix() for path in ADDON.rglob("*.py")}
 LICENCES = {"LICENSE", "THIRD_PARTY.txt"}
 MODULE = r"mrcontour\.cpython-3\d+-[\w-]+\.so"
 LIBRARY = r"mrcontour\.libs/libOpenMeshCore-\w+\.so[\d.]*"
@@ -97,6 +98,14 @@ def test_the_library_comes_from_the_package_alone(packages, tmp_path):
     code = "import mrcontour; print(*{line.split()[-1] for line in open('/proc/self/maps') if 'OpenMesh' in line})"
     loaded = subprocess.run([sys.executable, "-c", code], cwd=folder, check=True, capture_output=True, text=True).stdout
     assert loaded.strip().startswith(str(folder / "mrcontour.libs"))
+
+
+def test_no_module_stays_behind(packages):
+    """A package that lacks one fails only where that module is first imported."""
+    assert {"__init__.py", "core/search.py", "mesh/outputs.py", "ui/operators.py"} <= SOURCES
+    for kind, folder in (("extension", ""), ("legacy", "minimum_ratio_contours/")):
+        shipped = {name.removeprefix(folder) for name in names(packages[kind]) if name.endswith(".py")}
+        assert shipped == SOURCES
 
 
 def wheel_of(folder, python, platform):

@@ -11,7 +11,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import breadth_first_order
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
-sort_edges = importlib.import_module("addon.contours").sort_edges
+sort_edges = importlib.import_module("addon.core.edge_paths").sort_edges
 
 LONGEST = 150  # points of a contour
 REACH = 40  # edges from a contour's seed to its farthest point

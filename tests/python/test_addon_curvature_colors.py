@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
-colors = importlib.import_module("addon.curvature_colors").colors
+colors = importlib.import_module("addon.core.curvature_colors").colors
 
 
 def test_valleys_are_blue_ridges_red_and_flat_places_nearly_white():

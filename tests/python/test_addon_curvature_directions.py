@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
-directions = importlib.import_module("addon.curvature_directions")
+directions = importlib.import_module("addon.core.curvature_directions")
 
 AROUND, ROWS, GROOVE, STEP = 32, 21, 10, 0.2
 

@@ -13,11 +13,11 @@ import pytest
 from conftest import surface_of
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
-networks = importlib.import_module("addon.networks")
-topology_module = importlib.import_module("addon.topology")
-chains_module = importlib.import_module("addon.chains")
-settlement_module = importlib.import_module("addon.settlement")
-contours = importlib.import_module("addon.contours")
+networks = importlib.import_module("addon.core.networks")
+topology_module = importlib.import_module("addon.core.topology")
+chains_module = importlib.import_module("addon.core.chains")
+region_check_module = importlib.import_module("addon.core.region_check")
+edge_paths = importlib.import_module("addon.core.edge_paths")
 
 
 def topology_of(mesh, hidden_faces=()):
@@ -99,7 +99,7 @@ def as_pairs(edges):
 
 
 def chain_pairs(chain):
-    return as_pairs(contours.contour_edges(chain.vertices, chain.closed))
+    return as_pairs(edge_paths.contour_edges(chain.vertices, chain.closed))
 
 
 # ---- chains
@@ -139,8 +139,8 @@ def test_each_side_of_a_chain_has_one_label(mesh, labels, hidden):
     topology = topology_of(mesh, hidden)
     left_face = {pair: i for i, face in enumerate(mesh.faces) for pair in zip(face, face[1:] + face[:1])}
     for chain in chains_module.find_chains(topology, topology_module.label_borders(topology, labels)):
-        pairs = [tuple(pair) for pair in contours.contour_edges(chain.vertices, chain.closed).tolist()]
-        line = settlement_module._lines(topology, [chain.vertices], [chain.closed])[0]
+        pairs = [tuple(pair) for pair in edge_paths.contour_edges(chain.vertices, chain.closed).tolist()]
+        line = region_check_module._lines(topology, [chain.vertices], [chain.closed])[0]
         assert line.left.tolist() == [left_face[pair] for pair in pairs]
         assert line.right.tolist() == [left_face[pair[::-1]] for pair in pairs]
         assert len(set(labels[line.left])) == len(set(labels[line.right])) == 1
@@ -166,8 +166,8 @@ def test_chosen_edges_are_chains_of_their_own():
     topology = topology_of(meshes.tube(np.ones(6), 12))
     ring = 2 * 12 + np.arange(12)
     marked, chosen = np.zeros((2, len(topology.edges)), dtype=bool)
-    marked[topology.find(contours.contour_edges(ring))[0]] = True
-    chosen[topology.find(contours.contour_edges(ring[3:8], closed=False))[0]] = True
+    marked[topology.find(edge_paths.contour_edges(ring))[0]] = True
+    chosen[topology.find(edge_paths.contour_edges(ring[3:8], closed=False))[0]] = True
     moving, staying = sorted(chains_module.find_chains(topology, marked, chosen), key=lambda chain: not chain.chosen)
     assert set(moving.vertices) == set(ring[3:8])
     assert set(staying.vertices) == set(ring) - set(ring[4:7])
@@ -178,7 +178,7 @@ def test_a_loop_at_a_junction_keeps_it():
     topology = topology_of(meshes.tube(np.ones(6), 12))
     ring = 2 * 12 + np.arange(12)
     marked = np.zeros(len(topology.edges), dtype=bool)
-    marked[topology.find(contours.contour_edges(ring))[0]] = True
+    marked[topology.find(edge_paths.contour_edges(ring))[0]] = True
     marked[topology.find([(ring[5], ring[5] + 12), (ring[5] + 12, ring[5] + 24)])[0]] = True
     loop, tail = sorted(chains_module.find_chains(topology, marked), key=lambda chain: not chain.closed)
     assert (loop.closed, loop.required, loop.vertices[0]) == (True, (ring[5],), ring[5])
@@ -214,9 +214,9 @@ def test_nothing_moves_nothing_changes(mesh, labels, hidden):
     borders = topology_module.label_borders(topology, labels)
     chains = chains_module.find_chains(topology, borders)
     for paths in ([None] * len(chains), [chain.vertices for chain in chains]):
-        settlement = settlement_module.settle(topology, borders, chains, paths)
-        assert settlement.lost == {}
-        assert (labels[settlement.after] == labels).all()
+        region_check = region_check_module.check_regions(topology, borders, chains, paths)
+        assert region_check.lost == {}
+        assert (labels[region_check.after] == labels).all()
 
 
 # ---- the search
@@ -249,21 +249,23 @@ def test_labels_follow_the_borders(mesh, labels, hidden):
     """The borders of the new labels are the new contours; every label keeps its pieces; what is hidden stays."""
     topology = topology_of(mesh, hidden)
     plan = optimize(mesh, topology, topology_module.label_borders(topology, labels))
-    new = labels[plan.settlement.after]
+    new = labels[plan.region_check.after]
     lines = [
         getattr(result, "vertices", None) if taken else chain.vertices
-        for chain, result, taken in zip(plan.chains, plan.results, plan.settlement.taken)
+        for chain, result, taken in zip(plan.chains, plan.results, plan.region_check.taken)
     ]
     pairs = [
-        pair for chain, line in zip(plan.chains, lines) for pair in as_pairs(contours.contour_edges(line, chain.closed))
+        pair
+        for chain, line in zip(plan.chains, lines)
+        for pair in as_pairs(edge_paths.contour_edges(line, chain.closed))
     ]
     inner = set(as_pairs(topology.edges[topology.inner]))
     assert sorted(pair for pair in pairs if pair in inner) == sorted(expected_borders(mesh, new, hidden))
     assert piece_labels(topology, new) == piece_labels(topology, labels)
     assert (new[hidden] == labels[hidden]).all()
-    moved = [i for i, taken in enumerate(plan.settlement.taken) if taken]
+    moved = [i for i, taken in enumerate(plan.region_check.taken) if taken]
     assert all(plan.chains[i].edge_count > 1 for i in moved)
-    assert set(moved).isdisjoint(plan.settlement.lost)
+    assert set(moved).isdisjoint(plan.region_check.lost)
 
 
 def test_most_of_them_move_and_few_are_refused():
@@ -274,8 +276,8 @@ def test_most_of_them_move_and_few_are_refused():
         plan = optimize(mesh, topology, topology_module.label_borders(topology, labels))
         movable = [chain.movable for chain in plan.chains]
         total += sum(movable)
-        moved += sum(plan.settlement.taken)
-        lost += len(plan.settlement.lost)
+        moved += sum(plan.region_check.taken)
+        lost += len(plan.region_check.lost)
         problems += len(plan.problems)
     assert moved > 0.25 * total  # most borders of so many noisy regions are a few edges long
     assert lost + problems < 0.05 * moved
@@ -295,7 +297,7 @@ def line_at(column):
     return np.arange(6) * 11 + column
 
 
-def settle(lines):
+def checked(lines):
     """Which of the lines at columns 3 and 6 are taken where they would go, and the labels along the sheet."""
     topology, labels, borders, chains = two_columns()
     paths = [
@@ -305,33 +307,33 @@ def settle(lines):
         p if p is None or p[0] < chain.vertices[-1] and chain.vertices[0] < 11 else p[::-1]
         for p, chain in zip(paths, chains)
     ]
-    settlement = settlement_module.settle(topology, borders, chains, paths)
-    taken = {int(chain.vertices[0] % 11): t for chain, t in zip(chains, settlement.taken)}
-    return taken, settlement.lost, labels[settlement.after].reshape(5, 10)
+    region_check = region_check_module.check_regions(topology, borders, chains, paths)
+    taken = {int(chain.vertices[0] % 11): t for chain, t in zip(chains, region_check.taken)}
+    return taken, region_check.lost, labels[region_check.after].reshape(5, 10)
 
 
 def test_labels_lie_on_the_side_of_the_line_where_they_lay():
-    taken, lost, labels = settle({3: 2, 6: 8})
+    taken, lost, labels = checked({3: 2, 6: 8})
     assert (taken, lost) == ({3: True, 6: True}, {})
     assert (labels == [0, 0, 1, 1, 1, 1, 1, 1, 2, 2]).all()
 
 
 def test_a_region_that_would_vanish_keeps_its_borders():
     """Both lines on the same edges: the middle region, whose lowest face is the fourth, would be gone."""
-    taken, lost, labels = settle({3: 5, 6: 5})
+    taken, lost, labels = checked({3: 5, 6: 5})
     assert taken == {3: False, 6: False}
     assert set(lost.values()) == {3}
     assert (labels == [0, 0, 0, 1, 1, 1, 2, 2, 2, 2]).all()
 
 
 def test_lines_that_change_places_stay():
-    taken, _, labels = settle({3: 8, 6: 2})
+    taken, _, labels = checked({3: 8, 6: 2})
     assert taken == {3: False, 6: False}
     assert (labels == [0, 0, 0, 1, 1, 1, 2, 2, 2, 2]).all()
 
 
 def test_a_line_along_the_border_stays_and_the_other_one_moves():
-    taken, lost, labels = settle({3: 0, 6: 7})
+    taken, lost, labels = checked({3: 0, 6: 7})
     assert taken == {3: False, 6: True}
     assert lost == {0: -1}
     assert (labels == [0, 0, 0, 1, 1, 1, 1, 2, 2, 2]).all()
@@ -342,19 +344,19 @@ def test_only_the_line_that_tears_a_region_stays():
     topology, labels, borders, chains = two_columns()
     bent = np.array([3, 14, 25, 26, 15, 4, 5, 16, 27, 38, 49, 60])
     paths = [bent if chain.vertices[0] % 11 == 3 else line_at(7) for chain in chains]
-    settlement = settlement_module.settle(topology, borders, chains, paths)
-    assert settlement.taken == [bool(chain.vertices[0] % 11 != 3) for chain in chains]
-    assert (labels[settlement.after].reshape(5, 10) == [0, 0, 0, 1, 1, 1, 1, 2, 2, 2]).all()
+    region_check = region_check_module.check_regions(topology, borders, chains, paths)
+    assert region_check.taken == [bool(chain.vertices[0] % 11 != 3) for chain in chains]
+    assert (labels[region_check.after].reshape(5, 10) == [0, 0, 0, 1, 1, 1, 1, 2, 2, 2]).all()
 
 
 def test_a_line_that_would_join_regions_stays():
     """The line at column 3 would end on the sheet."""
     topology, labels, borders, chains = two_columns()
     paths = [line_at(3)[:4] if chain.vertices[0] % 11 == 3 else None for chain in chains]
-    settlement = settlement_module.settle(topology, borders, chains, paths)
-    assert not any(settlement.taken)
-    assert list(settlement.lost.values()) == [-1]
-    assert (labels[settlement.after] == labels).all()
+    region_check = region_check_module.check_regions(topology, borders, chains, paths)
+    assert not any(region_check.taken)
+    assert list(region_check.lost.values()) == [-1]
+    assert (labels[region_check.after] == labels).all()
 
 
 def taken_ends(plan):
@@ -405,9 +407,9 @@ def test_only_chosen_chains_move():
     """Both would: the line at column 12 is bent by hand before."""
     mesh, topology, marked = three_strips()
     bent = np.array([12, 28, 29, 45, 44, 60, 76, 92, 108, 124])
-    straight = topology.find(contours.contour_edges(np.arange(8) * 16 + 12, closed=False))[0]
+    straight = topology.find(edge_paths.contour_edges(np.arange(8) * 16 + 12, closed=False))[0]
     marked[straight] = False
-    marked[topology.find(contours.contour_edges(bent, closed=False))[0]] = True
+    marked[topology.find(edge_paths.contour_edges(bent, closed=False))[0]] = True
     column = topology.edges.min(axis=1) % 16
     moved = []
     for chosen in (marked, marked & (column < 9), marked & (column > 9)):
@@ -431,7 +433,9 @@ def test_what_cannot_be_searched_is_named_and_a_barrier_to_the_others(monkeypatc
     monkeypatch.setattr(networks.native, "module", lambda: fake)
     plan = optimize(mesh, topology, marked, width=4)
     assert list(plan.problems.values()) == ["it is not to my liking"]
-    assert [bool(12 in chain.vertices % 16) for chain in plan.chains] == [not taken for taken in plan.settlement.taken]
+    assert [bool(12 in chain.vertices % 16) for chain in plan.chains] == [
+        not taken for taken in plan.region_check.taken
+    ]
     (barriers,) = barriers
     assert sorted(as_pairs(barriers)) == [(12 + 16 * y, 28 + 16 * y) for y in range(7)]
 
@@ -448,10 +452,10 @@ def test_contours_at_vertices_that_are_not_manifold_are_named():
     topology = topology_of(mesh)
     marked = np.zeros(len(topology.edges), dtype=bool)
     marked[topology.find([(base + 1, base), (base, base + 4)])[0]] = True
-    marked[topology.find(contours.contour_edges(np.arange(8) * 16 + 6, closed=False))[0]] = True
+    marked[topology.find(edge_paths.contour_edges(np.arange(8) * 16 + 6, closed=False))[0]] = True
     plan = optimize(mesh, topology, marked, width=4)
     assert ["non-manifold" in problem for problem in plan.problems.values()] == [True]
-    assert sum(plan.settlement.taken) == 1
+    assert sum(plan.region_check.taken) == 1
 
 
 def test_a_network_of_single_edges_needs_no_surface():

@@ -12,8 +12,8 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
-parameters = importlib.import_module("addon.parameters")
-native = importlib.import_module("addon.native")
+parameters = importlib.import_module("addon.core.parameters")
+native = importlib.import_module("addon.core.native")
 
 
 def choices(row):
@@ -76,7 +76,7 @@ def test_a_missing_module_is_explained(monkeypatch):
 
 def test_a_module_for_another_python_is_explained(monkeypatch, tmp_path):
     (tmp_path / "mrcontour.cpython-399-x86_64-linux-gnu.so").touch()
-    monkeypatch.setattr(native, "__file__", str(tmp_path / "native.py"))
+    monkeypatch.setattr(native, "__file__", str(tmp_path / "core" / "native.py"))
     monkeypatch.setitem(sys.modules, "mrcontour", None)
     assert "cpython-399" in native.problem()
 

@@ -20,7 +20,10 @@ addon_module.enable()
 
 from bench_meshes import GROOVE, grooved_tube, milliseconds, square  # noqa: E402
 from made_meshes import edit, pairs, select  # noqa: E402
-from minimum_ratio_contours import adjust_state, api, native, overlay, parameters, preview, selection  # noqa: E402
+from minimum_ratio_contours import api  # noqa: E402
+from minimum_ratio_contours.core import native, parameters, preview, preview_state  # noqa: E402
+from minimum_ratio_contours.mesh import contour_tasks  # noqa: E402
+from minimum_ratio_contours.ui import overlay  # noqa: E402
 
 LIMIT = 1000  # faces of a band
 STEPS = ["WIDER", "SHORTER", "NARROWER", "LONGER"] * 25
@@ -28,9 +31,9 @@ STEPS = ["WIDER", "SHORTER", "NARROWER", "LONGER"] * 25
 
 def begin(obj):
     """What the operator does before its first frame."""
-    part = selection.read_part(obj, False)
+    task = contour_tasks.read_task(obj, False)
     arrays, surface = api.arrays_and_surface_of(obj)
-    return preview.Preview(arrays, surface, part.sound())
+    return preview.Preview(arrays, surface, task.sound())
 
 
 def step(shown, state):
@@ -69,9 +72,9 @@ def measure():
 def measure_steps(shown, timed, refinement):
     settings = {name: row["default"] for name, row in parameters.SETTINGS.items()}
     settings |= {"reach": 0.0, "width": 1, "refinement": refinement}
-    state, rows = adjust_state.State.start(settings, "SELECT"), []
+    state, rows = preview_state.State.start(settings, "SELECT"), []
     for command in STEPS:
-        state, timed.taken = adjust_state.changed(state, command), 0.0
+        state, timed.taken = preview_state.changed(state, command), 0.0
         whole, _ = milliseconds(step, shown, state)
         rows.append((len(shown.bands[0]), whole, whole - timed.taken))
     faces, whole, besides = np.array(rows[1:]).T

@@ -14,7 +14,7 @@ from made_meshes import (
     ring,
 )
 from mathutils import Matrix
-from minimum_ratio_contours.preview import Preview
+from minimum_ratio_contours.core.preview import Preview
 from prepared import FRONT, LOOP, cylinder, now
 
 

@@ -5,7 +5,7 @@ import bmesh
 import bpy
 import numpy as np
 from made_meshes import GROOVE, edge_set, everything, flagged, ring
-from minimum_ratio_contours import show_directions
+from minimum_ratio_contours.ui import show_directions
 from prepared import cylinder, now
 
 RESTED = 30  # steps until the lines are made anew

@@ -3,7 +3,7 @@
 
 import bpy
 from made_meshes import GROOVE, SEGMENTS, edge_set, edit, flagged, grooved_cylinder, pairs, ring, set_flag
-from minimum_ratio_contours import segmentation
+from minimum_ratio_contours.mesh import segmentation
 from prepared import LOOP, cylinder, now
 
 

@@ -5,7 +5,8 @@ import bmesh
 import bpy
 import numpy as np
 from made_meshes import GROOVE, edge_set, everything, flagged, pairs, ring, set_flag
-from minimum_ratio_contours import panels, parameters
+from minimum_ratio_contours.core import parameters
+from minimum_ratio_contours.ui import panels
 from prepared import LOOP, cylinder, now
 
 BUTTON = "mesh.optimize_contour()"

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The points of contours across faces, and moving those close to a vertex onto it. Needs no Blender."""
+
+from collections import defaultdict
+from dataclasses import dataclass
+
+import numpy as np
+
+NEVER_APART = (
+    1e-5  # of an edge: closer to a vertex than this a point has no room of its own in Blender's 32-bit positions
+)
+
+
+@dataclass(frozen=True)
+class ContourPoint:
+    """One point of a contour: the point at (1 - t) a + t b of edge ab with a < b, a vertex being (v, v, 0)."""
+
+    a: int
+    b: int
+    t: float
+    face: int  # holds the segment to the next point; at the end of an open contour, that from the last one
+
+    @property
+    def place(self):
+        return self.a, self.b, self.t
+
+    @property
+    def is_vertex(self):
+        return self.a == self.b
+
+    def nearest_vertex(self):
+        return self.a if self.t <= 0.5 else self.b
+
+    def at_vertex(self, vertex):
+        return ContourPoint(vertex, vertex, 0.0, self.face)
+
+
+def contour_points(contour):
+    """The points of a native result, or of anything with its edge_vertices, edge_parameters and segment_faces."""
+    faces = np.asarray(contour.segment_faces).tolist()
+    points = zip(np.asarray(contour.edge_vertices).tolist(), np.asarray(contour.edge_parameters).tolist())
+    return [_point(a, b, t, faces[min(i, len(faces) - 1)]) for i, ((a, b), t) in enumerate(points)]
+
+
+def without_points_along_edges(contour, closed):
+    """Leaves out what lies between two points on the same edge: running along an edge cuts nothing."""
+    before, after = contour[-1:] + contour[:-1], contour[1:] + contour[:1]
+    ends = () if closed else (contour[0], contour[-1])
+    return [
+        point
+        for previous, point, following in zip(before, contour, after)
+        if point in ends or not (_on_edge_of(previous, point) and _on_edge_of(following, point))
+    ]
+
+
+def merge_points(contours, closed, fraction, kept_whole=frozenset(), guarded=frozenset()):
+    """Moves points closer to a vertex than this fraction of their edge onto it; on edges to be kept whole, all.
+
+    Only where they follow one another along one contour, which then runs through the vertex: so no contour comes to
+    touch itself, another, or a guarded vertex that it did not touch before, and none loses its last corners.
+    """
+    near = defaultdict(lambda: defaultdict(list))  # vertex -> contour -> places of its points there
+    for c, contour in enumerate(contours):
+        for i, point in enumerate(contour):
+            if (point.a, point.b) in kept_whole:
+                near[_end_beside(contour, i)][c].append(i)
+            elif min(point.t, 1.0 - point.t) <= max(fraction, NEVER_APART):
+                near[point.nearest_vertex()][c].append(i)
+    moved = [list(contour) for contour in contours]
+    for vertex, visits in near.items():
+        if _may_merge(vertex, visits, contours, closed, vertex in guarded):
+            for c, places in visits.items():
+                for i in places:
+                    moved[c][i] = contours[c][i].at_vertex(vertex)
+    return [_kept(after, before, is_closed) for after, before, is_closed in zip(moved, contours, closed)]
+
+
+def _point(a, b, t, face):
+    if t <= 0.0 or a == b:
+        return ContourPoint(a, a, 0.0, face)
+    if t >= 1.0:
+        return ContourPoint(b, b, 0.0, face)
+    return ContourPoint(a, b, t, face) if a < b else ContourPoint(b, a, 1.0 - t, face)
+
+
+def _on_edge_of(point, other):
+    return not other.is_vertex and {point.a, point.b} <= {other.a, other.b}
+
+
+def _end_beside(contour, i):
+    """The end of a point's edge that the contour passes next to it, else the nearer one."""
+    point = contour[i]
+    beside = {other.a for other in (contour[i - 1], contour[(i + 1) % len(contour)]) if other.is_vertex}
+    ends = beside & {point.a, point.b}
+    return min(ends) if ends else point.nearest_vertex()
+
+
+def _may_merge(vertex, visits, contours, closed, guarded):
+    """One run of one contour; several contours, or a guarded vertex, only where they meet it already."""
+    if not all(_is_run(places, len(contours[c]), closed[c]) for c, places in visits.items()):
+        return False
+    at_vertex = [any(contours[c][i].place == (vertex, vertex, 0.0) for i in places) for c, places in visits.items()]
+    return all(at_vertex) or (len(visits) == 1 and not guarded)
+
+
+def _is_run(places, count, closed):
+    """Whether ascending places follow one another, round the end of a closed contour too."""
+    gaps = sum(following - place > 1 for place, following in zip(places, places[1:]))
+    wraps = closed and places[0] == 0 and places[-1] == count - 1
+    return gaps == 0 or (gaps == 1 and wraps)
+
+
+def _kept(moved, given, closed):
+    """Without repeated points; the contour as given where too few would be left."""
+    reduced = _without_repeats(moved, closed)
+    return reduced if len(reduced) >= 3 else _without_repeats(given, closed)
+
+
+def _without_repeats(contour, closed):
+    """Of equal points in a row the last stays: the segment that leaves is its own."""
+    following = contour[1:] + contour[:1]
+    kept = [point for point, after in zip(contour, following) if point.place != after.place]
+    return kept if closed else kept + contour[-1:] * (not kept or kept[-1] is not contour[-1])

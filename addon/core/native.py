@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Finds the compiled module `mrcontour`, or says in plain words why it cannot be used. Needs no Blender."""
+
+import importlib
+import re
+import sys
+from pathlib import Path
+
+VERSION = "0.1.0"  # of the add-on; the compiled module must be of the same
+_ADDON = __package__.rpartition(".")[0]  # the add-on's own package, in whose folder a legacy add-on has the module
+
+
+class Unavailable(RuntimeError):
+    """The compiled module cannot be used; the message is meant for the user."""
+
+
+def module():
+    """The compiled module. Raises Unavailable with a message for the user."""
+    found = _import()
+    version = getattr(found, "__version__", "unknown")
+    if version != VERSION:
+        # A running Blender keeps the compiled module that it has once loaded, also when the add-on is upgraded.
+        raise Unavailable(
+            f"The add-on is version {VERSION}, its compiled library version {version}: "
+            "restart Blender to complete the upgrade"
+        )
+    return found
+
+
+def problem():
+    """Why the compiled module cannot be used, in words; empty where it can."""
+    try:
+        module()
+    except Unavailable as error:
+        return str(error)
+    return ""
+
+
+def message_and_contour(error):
+    """What a native error says, and the contour it says it of, by its place in the list; None where of none."""
+    named = re.match(r"contour (\d+): (.*)", str(error), re.DOTALL)
+    return (named[2], int(named[1])) if named else (str(error), None)
+
+
+def _import():
+    """A legacy add-on has the module in its own folder, an extension in the wheels that it brings."""
+    names = ((".mrcontour", _ADDON), ("mrcontour", None))
+    try:
+        for name, package in names:
+            try:
+                return importlib.import_module(name, package)
+            except ModuleNotFoundError as error:
+                if error.name not in ("mrcontour", f"{_ADDON}.mrcontour"):
+                    raise
+    except ImportError as error:
+        raise Unavailable(f"The compiled library does not load: {error}") from error
+    raise Unavailable(_missing())
+
+
+def _missing():
+    python = f"Python {sys.version_info.major}.{sys.version_info.minor}"
+    folder = Path(__file__).parents[1]
+    built = sorted(path.name for path in folder.glob("mrcontour*") if path.suffix in (".so", ".pyd"))
+    if built:
+        return (
+            f"The compiled library is for another system or Blender ({built[0]}; this Blender has {python}): "
+            "install the package made for yours"
+        )
+    return (
+        "This copy of the add-on is its source, without the compiled library mrcontour: "
+        f"install the package made for your system and {python}"
+    )

@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From what a mesh's layers say to the constraints of native calls. Needs no Blender."""
+
+from collections import defaultdict
+from dataclasses import dataclass, field
+from itertools import product
+
+import numpy as np
+
+from .edge_paths import common_edges, contour_edges
+from .parameters import native_options
+
+_BESIDE = tuple(product((-1, 0, 1), repeat=3))  # a cell and those round it
+
+
+def _ids(*shape):
+    return field(default_factory=lambda: np.empty(shape, dtype=np.int32))
+
+
+class OutsideBand(ValueError):
+    """Required vertices that lie where nothing is searched; the message is meant for the user."""
+
+    def __init__(self, vertices):
+        self.vertices = vertices
+        noun = "vertex lies" if len(vertices) == 1 else "vertices lie"
+        super().__init__(
+            f"{len(vertices)} required {noun} outside the band that is searched: "
+            "widen it, or take them out of the vertex group"
+        )
+
+
+@dataclass(frozen=True)
+class Constraints:
+    """What the layers of one mesh ask of its contours."""
+
+    points: np.ndarray  # (V, 3)
+    face_offsets: np.ndarray
+    face_vertices: np.ndarray
+    required: np.ndarray = _ids(0)  # vertex ids
+    barriers: np.ndarray = _ids(0, 2)  # vertex pairs
+    pulls: np.ndarray = _ids(0)  # a weight for each vertex, or nothing
+    attracting: np.ndarray = _ids(0, 2)  # vertex pairs, edges whose vertices have weight 1
+    strength: float = 0.0
+    radius: float = 1.0  # of an attractor, in edge lengths of the given contours
+    density: np.ndarray | None = None  # of each face
+    region_strength: float = 0.0
+
+    def keywords(self, mrc, surface, contours, closed, options):
+        """Keyword arguments of mrc.optimize_all for contours along edges; `options`: those of mrc.Options, as a dict.
+
+        Marks along the given contours are not counted: they move with them. Raises OutsideBand.
+        """
+        edges = np.concatenate([contour_edges(*contour) for contour in zip(contours, closed)])
+        found = {"barriers": self.barriers_beside(contours, closed)}
+        if len(self.required):
+            bands = self._bands(mrc, surface, contours, closed, options)
+            found["required_vertices"] = assign(self.required, self.points, contours, bands)
+        weights = self._weights(edges)
+        if len(weights):
+            length = np.linalg.norm(self.points[edges[:, 0]] - self.points[edges[:, 1]], axis=1).mean()
+            near = np.unique(np.concatenate(self._bands(mrc, surface, contours, closed, _of_all_iterations(options))))
+            felt = near[weights[near] > 0]
+            found["attractors"] = attractors(
+                self.points, felt, weights[felt], float(self.radius * length), self.strength
+            )
+        if self.density is not None:
+            found["region_density"] = self.density
+        # Painted constraints override min_salience; and the native weight is a cost.
+        painted = len(weights) or self.density is not None
+        changed = options | ({"min_salience": None} if painted else {})
+        changed |= {"region_weight": -self.region_strength} if self.density is not None else {}
+        return found | {"options": mrc.Options(**changed)}
+
+    def barriers_beside(self, contours, closed):
+        """The barriers but those along the contours."""
+        return _without(self.barriers, np.concatenate([contour_edges(*contour) for contour in zip(contours, closed)]))
+
+    def paints_the_right(self, mrc, surface, contour):
+        """Whether what lies near a closed contour is painted more to its right than to its left."""
+        space = mrc.search_space(surface, contour, options=mrc.Options(width=4))
+        right, left = (space["vertices"][space["side"] == side] for side in (-1, 1))
+        return self._mean_density(space["faces"], right) > self._mean_density(space["faces"], left)
+
+    def _mean_density(self, faces, vertices):
+        """Of those of the faces that have one of the vertices."""
+        corners, starts = self._corners(faces)
+        touching = np.logical_or.reduceat(np.isin(corners, vertices), starts)
+        return self.density[faces][touching].mean() if touching.any() else 0.0
+
+    def _bands(self, mrc, surface, contours, closed, options):
+        """The vertices of the faces that are searched, for each contour by itself."""
+        options = mrc.Options(**options)
+        bands = [
+            mrc.band(surface, vertices, closed=is_closed, options=options)
+            for vertices, is_closed in zip(contours, closed)
+        ]
+        return [np.unique(self._corners(faces)[0]) for faces in bands]
+
+    def _corners(self, faces):
+        """The vertices of some faces, face by face, and where each face's begin."""
+        counts = self.face_offsets[faces + 1] - self.face_offsets[faces]
+        starts = np.cumsum(counts) - counts
+        shift = np.repeat(self.face_offsets[faces] - starts, counts)
+        return self.face_vertices[shift + np.arange(len(shift))], starts
+
+    def _weights(self, edges):
+        """The pull of each vertex, or nothing where there is none."""
+        marked = _without(self.attracting, edges)
+        if not len(marked):
+            return self.pulls
+        weights = self.pulls.copy() if len(self.pulls) else np.zeros(len(self.points))
+        weights[marked.ravel()] = 1.0
+        return weights
+
+
+def native_keywords(mrc, surface, contours, closed, settings, constraints=None):
+    """Keyword arguments of mrc.optimize_all for settings of the table, and for Constraints where there are some."""
+    options = native_options(**settings)
+    if constraints is None:
+        return {"options": mrc.Options(**options)}
+    return constraints.keywords(mrc, surface, contours, closed, options)
+
+
+def attractors(points, vertices, weights, radius, strength):
+    """Rows (vertex, radius, strength) that together pull as strongly as the weights say, however dense the mesh is.
+
+    Gaussians of sigma = radius / 2 (4.5) add up. So no vertex is kept within a sigma of one of more weight, and each is
+    divided by the sum of what is felt there of those around it.
+    """
+    order = np.lexsort((vertices, -weights))
+    kept = order[_apart(points[vertices[order]], radius / 2)]
+    places = points[vertices[kept]]
+    grid = _Grid(radius)
+    for place in places:
+        grid.add(place)
+    rows = np.empty((len(kept), 3))
+    for row, place, vertex, weight in zip(rows, places, vertices[kept], weights[kept]):
+        squares = ((places[grid.near(place)] - place) ** 2).sum(axis=1)
+        row[:] = vertex, radius, strength * weight / np.exp(-2 * squares[squares <= radius**2] / radius**2).sum()
+    return rows
+
+
+def assign(required, points, contours, bands):
+    """The required vertices of each contour: of those in whose band one lies, the nearest takes it."""
+    taken, outside = [[] for _ in contours], []
+    for vertex in required.tolist():
+        able = [i for i, band in enumerate(bands) if vertex in band]
+        distances = [np.linalg.norm(points[contours[i]] - points[vertex], axis=1).min() for i in able]
+        if able:
+            taken[able[int(np.argmin(distances))]].append(vertex)
+        else:
+            outside.append(vertex)
+    if outside:
+        raise OutsideBand(outside)
+    return [np.array(vertices, dtype=np.int32) for vertices in taken]
+
+
+def face_means(face_offsets, corner_values):
+    """The mean over each face's corners."""
+    if not len(corner_values):
+        return np.zeros(len(face_offsets) - 1)
+    return np.add.reduceat(corner_values, face_offsets[:-1]) / np.diff(face_offsets)
+
+
+def _apart(points, distance):
+    """The points, by their numbers, that are not within a distance of one that comes earlier and is kept."""
+    grid, kept = _Grid(distance), []
+    for index, point in enumerate(points):
+        near = [kept[i] for i in grid.near(point)]
+        if not near or (((points[near] - point) ** 2).sum(axis=1) > distance**2).all():
+            kept.append(index)
+            grid.add(point)
+    return np.array(kept, dtype=int)
+
+
+class _Grid:
+    """Points, by the cells that they lie in: what lies within `reach` of a point is in its cell or one beside it."""
+
+    def __init__(self, reach):
+        self._size = 1.001 * reach or 1.0  # a little more, against rounding
+        self._cells, self._count = defaultdict(list), 0
+
+    def add(self, point):
+        self._cells[self._cell(point)].append(self._count)
+        self._count += 1
+
+    def near(self, point):
+        """At least the points within reach, by their numbers in ascending order."""
+        x, y, z = self._cell(point)
+        beside = ((x + i, y + j, z + k) for i, j, k in _BESIDE)
+        return sorted(index for cell in beside if cell in self._cells for index in self._cells[cell])
+
+    def _cell(self, point):
+        return tuple((point // self._size).tolist())
+
+
+def _without(edges, others):
+    """The (n, 2) edges that are not among the others, in either direction."""
+    among = {frozenset(pair) for pair in common_edges(edges, others).tolist()}
+    return edges[[frozenset(pair) not in among for pair in edges.tolist()]] if among else edges
+
+
+def _of_all_iterations(options):
+    """Options whose band reaches as far as the bands of all iterations together."""
+    rounds = max(1, options["iterations"] + options["regular_iterations"])
+    farther = {name: options[name] and options[name] * rounds for name in ("width", "band_distance")}
+    return options | farther

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The search for contours: of scripts on a native surface, and of all that are selected. Needs no Blender.
+
+All of it may run in any thread.
+"""
+
+from dataclasses import dataclass
+
+from . import messages, native
+from .native_constraints import OutsideBand, native_keywords
+
+
+def optimize_on(surface, vertices, closed=True, close=False, progress=None, **settings):
+    """The minimum ratio contour near a given one on a native surface, of `surface_of`.
+
+    Like api.optimize_contour; `progress` and `constraints` as in optimize_all_on.
+    """
+    if close:
+        closing, progress = fraction_of(progress, 0, 2), fraction_of(progress, 1, 2)
+        loop = native.module().close_contour(surface, vertices, progress=closing)
+        if loop is None:  # cancelled: so is the search
+            return optimize_all_on(surface, [vertices], closed=False, progress=lambda _: False, **settings)[0]
+        vertices, closed = loop, True
+    return optimize_all_on(surface, [vertices], closed=closed, progress=progress, **settings)[0]
+
+
+def optimize_all_on(surface, contours, closed=True, progress=None, constraints=None, **settings):
+    """Several contours of a native surface together, which never cross; `closed` is one for all or one for each.
+
+    `contours` are sequences of vertices or earlier results. `progress` is called with the fraction done, 0 to 1; where
+    it returns False the search ends, status "cancelled", and an exception that it raises passes through. `constraints`
+    is what `constraint_layers.read` gives. Returns an `mrcontour.Result` for each contour.
+    """
+    mrc = native.module()
+    each_closed = [closed] * len(contours) if isinstance(closed, bool) else closed
+    keywords = native_keywords(mrc, surface, contours, each_closed, settings, constraints)
+    return mrc.optimize_all(surface, contours, closed=closed, progress=progress, **keywords)
+
+
+def problem_on(surface, vertices, closed=True, barriers=()):
+    """Why these vertices are no contour that could be optimized, in words; empty where they are one."""
+    mrc = native.module()
+    try:
+        mrc.measure(surface, vertices, closed=closed)
+        if len(barriers):
+            mrc.optimize(surface, vertices, closed=closed, barriers=barriers, options=mrc.Options(iterations=0))
+    except ValueError as error:
+        return str(error)
+    return ""
+
+
+def fraction_of(progress, i, count):
+    """The progress callback of the i-th of several searches; None stays None."""
+    return progress and (lambda fraction: progress((i + fraction) / count))
+
+
+@dataclass
+class ContourSearch:
+    """The contours of one mesh, which are searched together."""
+
+    outcomes: list
+    from_faces: bool = False  # whether they are borders of selected faces, which then lie to their left
+    arrays: object = None  # of the mesh, where there is something to optimize
+    surface: object = None  # the native one made from them
+    constraints: object = None  # what the mesh's layers ask of the contours
+    outside: tuple = ()  # required vertices where nothing is searched
+
+    def sound(self):
+        """The contours that can be handed to the search."""
+        return [outcome for outcome in self.outcomes if not outcome.problem]
+
+    def done(self):
+        """The contours that are output."""
+        return [outcome for outcome in self.outcomes if outcome.result is not None and not outcome.problem]
+
+    def fail(self, error):
+        """Why nothing can be done with any of the contours that could be handed to the search."""
+        for outcome in self.sound():
+            outcome.problem = messages.problem(error)
+
+
+def optimize_contours(searches, settings, progress=None):
+    """Gives each outcome of each search its result, or the problem that keeps it from one."""
+    searches = [search for search in searches if search.surface]
+    for i, search in enumerate(searches):
+        own_progress = fraction_of(progress, i, len(searches))
+        steps = 2 if any(outcome.closing for outcome in search.sound()) else 1
+        try:
+            complete(search, fraction_of(own_progress, 0, steps))
+            _optimize_together(search, search.sound(), settings, fraction_of(own_progress, steps - 1, steps))
+        except ValueError as error:
+            search.outside = error.vertices if isinstance(error, OutsideBand) else ()
+            search.fail(error)
+
+
+def complete(search, progress=None):
+    """Closes the chains that are to be closed, and turns contours so that what is painted lies to their left."""
+    _close(search.surface, search.sound(), progress)
+    if search.constraints is not None and search.constraints.density is not None:
+        _orient_by_density(search)
+
+
+def find_problems(search, outcomes):
+    """Gives each outcome that is no contour the reason why; the others may stay without a result."""
+    vertices, closed = [outcome.vertices for outcome in outcomes], [outcome.closed for outcome in outcomes]
+    barriers = () if search.constraints is None else search.constraints.barriers_beside(vertices, closed)
+    for outcome in outcomes:
+        outcome.problem = problem_on(search.surface, outcome.vertices, outcome.closed, barriers)
+
+
+def _close(surface, outcomes, progress):
+    """Closes the chains that are to be closed. Loops that meet are no contours beside each other: the first has it."""
+    taken = {vertex for outcome in outcomes if not outcome.closing for vertex in outcome.vertices.tolist()}
+    closing = [outcome for outcome in outcomes if outcome.closing]
+    for i, outcome in enumerate(closing):
+        own_progress = fraction_of(progress, i, len(closing))
+        try:
+            loop = native.module().close_contour(surface, outcome.vertices, progress=own_progress)
+        except ValueError as error:
+            outcome.problem = messages.problem(error)
+            continue
+        if taken.isdisjoint(loop.tolist()):
+            outcome.vertices, outcome.closed = loop, True
+            taken.update(loop.tolist())
+        else:
+            outcome.problem = messages.meets_another(outcome.vertices)
+
+
+def _orient_by_density(search):
+    """Turns the contours so that what is painted lies to their left, unless the selected part already lies there."""
+    for outcome in search.sound():
+        if not outcome.closed:
+            outcome.problem = messages.open_region()
+        elif not search.from_faces and search.constraints.paints_the_right(
+            native.module(), search.surface, outcome.vertices
+        ):
+            outcome.vertices = outcome.vertices[::-1].copy()
+
+
+def _optimize_together(search, outcomes, settings, progress):
+    """Optimizes all together. Where one of them cannot be a contour, that one is left out and the others go on."""
+    if not outcomes:
+        return
+    vertices, closed = [outcome.vertices for outcome in outcomes], [outcome.closed for outcome in outcomes]
+    try:
+        results = optimize_all_on(search.surface, vertices, closed, progress, search.constraints, **settings)
+    except OutsideBand:
+        raise
+    except ValueError:
+        find_problems(search, outcomes)
+        sound = [outcome for outcome in outcomes if not outcome.problem]
+        if len(sound) == len(outcomes):
+            raise
+        _optimize_together(search, sound, settings, progress)
+        return
+    for outcome, result in zip(outcomes, results):
+        outcome.result = result

@@ -1,0 +1,222 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Moves whole arrays from Blender's meshes."""
+
+from dataclasses import dataclass, fields
+from functools import cached_property
+
+import bmesh
+import bpy
+import numpy as np
+
+from ..core import edge_paths
+from . import attributes
+
+_EVEN = 1e-3  # scales that differ by less than this fraction are the same
+_AT_ONCE = 1 << 14  # triangles: what is computed from them then stays in the processor's cache
+
+
+@dataclass(frozen=True)
+class MeshArrays:
+    """What mrcontour.Surface is made from, in its order and types, in object space."""
+
+    positions: np.ndarray
+    face_offsets: np.ndarray
+    face_vertices: np.ndarray
+    triangles: np.ndarray
+    hidden_faces: np.ndarray
+
+    def keywords(self):
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    def equal(self, other):
+        return all(map(np.array_equal, self.keywords().values(), other.keywords().values()))
+
+    @cached_property
+    def signed_volume(self):
+        """What the triangles enclose where they are closed: a sixth of the sum of their determinants about a center."""
+        axes = (self.positions - self.positions.mean(axis=0)).T.copy()
+        parts = np.split(self.triangles, range(_AT_ONCE, len(self.triangles), _AT_ONCE))
+        return sum(_determinants(axes, part.T) for part in parts) / 6
+
+
+def synchronize(obj):
+    """Brings the mesh up to date with what was done in Edit Mode; until then its arrays are those of before."""
+    if attributes.is_edited(obj):
+        obj.update_from_editmode()
+
+
+def read_arrays(obj):
+    """The arrays of a synchronized mesh object."""
+    face_offsets, corners = attributes.face_offsets(obj), attributes.read(obj, "loops", "vertex_index", np.int32)
+    return MeshArrays(
+        positions=_read_points(obj),
+        face_offsets=face_offsets,
+        face_vertices=corners,
+        triangles=attributes.triangles(obj, corners),
+        hidden_faces=np.flatnonzero(attributes.read(obj, "polygons", "hide", bool)).astype(np.int32),
+    )
+
+
+@dataclass(frozen=True)
+class EdgeSelection:
+    """The edges that the user means, as vertex pairs, and those of them that no face uses."""
+
+    edges: np.ndarray  # in face mode directed: the selected face is to the left
+    loose: np.ndarray
+    borderless: bool = False  # whether there are selected faces without such a border
+
+
+def read_selection(obj, face_mode):
+    """The selected edges of a synchronized mesh; in face mode the borders of the selected faces.
+
+    Edit Mode never has anything hidden selected.
+    """
+    if face_mode:
+        directed = _selected_border(obj)
+        borderless = len(directed) == 0 and bool(attributes.read(obj, "polygons", "select", bool).any())
+        return EdgeSelection(directed, directed[:0], borderless)
+    chosen = np.flatnonzero(attributes.read(obj, "edges", "select", bool))
+    edges = attributes.read(obj, "edges", "vertices", np.int32, 2)[chosen]
+    used = np.zeros(len(obj.data.edges), dtype=bool)
+    used[attributes.read(obj, "loops", "edge_index", np.int32)] = True
+    return EdgeSelection(edges, edges[~used[chosen]])
+
+
+@dataclass(frozen=True)
+class EdgeArrays:
+    """What topology.make_topology is made from, in its order."""
+
+    edges: np.ndarray
+    face_offsets: np.ndarray
+    corner_vertices: np.ndarray
+    corner_edges: np.ndarray
+    hidden_faces: np.ndarray
+
+
+def read_edge_arrays(obj):
+    """The arrays of a synchronized mesh."""
+    return EdgeArrays(
+        edges=attributes.read(obj, "edges", "vertices", np.int32, 2),
+        face_offsets=attributes.face_offsets(obj),
+        corner_vertices=attributes.read(obj, "loops", "vertex_index", np.int32),
+        corner_edges=attributes.read(obj, "loops", "edge_index", np.int32),
+        hidden_faces=np.flatnonzero(attributes.read(obj, "polygons", "hide", bool)),
+    )
+
+
+def read_seams(obj):
+    """Of a synchronized mesh, which edges are seams, and which are selected."""
+    return tuple(attributes.read(obj, "edges", name, bool) for name in ("use_seam", "select"))
+
+
+def write_seams(mesh, old_edges, new_edges):
+    """Takes the seam from the old edges, given by their numbers, and sets it on the new ones, outside Edit Mode."""
+    for edges, value in ((old_edges, False), (new_edges, True)):
+        for edge in edges.tolist():
+            mesh.edges[edge].use_seam = value
+    mesh.update()
+
+
+def read_labels(obj, attribute):
+    """The labels of a synchronized mesh's faces: of an integer face attribute, or of the material slots (None).
+
+    None where there is no such attribute.
+    """
+    if attribute is None:
+        return attributes.read(obj, "polygons", "material_index", np.int32)
+    with attributes.with_attributes(obj) as mesh:
+        layer = mesh.attributes.get(attribute)
+        if layer is None or (layer.domain, layer.data_type) != ("FACE", "INT"):
+            return None
+        return attributes.values(layer.data, "value", np.int32)
+
+
+def write_labels(mesh, attribute, faces, labels):
+    """Gives faces their labels, where read_labels reads them."""
+    if not mesh.is_editmode:
+        for face, label in zip(faces.tolist(), labels.tolist()):
+            if attribute is None:
+                mesh.polygons[face].material_index = label
+            else:
+                mesh.attributes[attribute].data[face].value = label
+        mesh.update()
+        return
+    bm = bmesh.from_edit_mesh(mesh)
+    bm.faces.ensure_lookup_table()
+    layer = bm.faces.layers.int.get(attribute) if attribute is not None else None
+    for face, label in zip(faces.tolist(), labels.tolist()):
+        if attribute is None:
+            bm.faces[face].material_index = label
+        else:
+            bm.faces[face][layer] = label
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+
+
+def with_mirror_images(obj, edges, may_branch=False):
+    """The edges with their mirror images, or None; see edge_paths.with_mirror_images, or with_images."""
+    edge_vertices, hidden = (
+        attributes.read(obj, "edges", *attribute) for attribute in (("vertices", np.int32, 2), ("hide", bool))
+    )
+    find = edge_paths.with_images if may_branch else edge_paths.with_mirror_images
+    return find(edges, _read_points(obj), edge_vertices[~hidden])
+
+
+def is_unevenly_scaled(obj):
+    """Whether an object looks different in the scene than in its own space, mirrored included."""
+    scale = np.abs(obj.matrix_world.to_scale())
+    return bool(obj.matrix_world.is_negative or np.ptp(scale) > _EVEN * scale.max())
+
+
+def is_inside_out(obj, arrays):
+    """Whether a synchronized mesh, with its arrays, is closed and encloses a negative volume."""
+    if not arrays.signed_volume < 0:  # most often, and quickly known
+        return False
+    uses = np.bincount(attributes.read(obj, "loops", "edge_index", np.int32), minlength=len(obj.data.edges))
+    return bool(np.all(uses == 2))
+
+
+def find_edges(bm, pairs):
+    """The edges between pairs of vertex ids."""
+    bm.verts.ensure_lookup_table()
+    return [bm.edges.get((bm.verts[a], bm.verts[b])) for a, b in pairs]
+
+
+def _selected_border(obj):
+    """The edges round the selected faces, in the direction in which a selected face runs along them."""
+    arrays, selected = read_edge_arrays(obj), attributes.read(obj, "polygons", "select", bool)
+    hidden = np.zeros(len(selected), dtype=bool)
+    hidden[arrays.hidden_faces] = True
+    edges, corner_edges = arrays.edges, arrays.corner_edges
+    chosen = edge_paths.region_border(arrays.face_offsets, corner_edges, selected, hidden, len(edges))
+    corner_faces = np.repeat(np.arange(len(selected)), np.diff(arrays.face_offsets))
+    corners = np.flatnonzero(selected[corner_faces] & np.isin(corner_edges, chosen))
+    tails = np.full(len(edges), -1)
+    tails[corner_edges[corners]] = arrays.corner_vertices[corners]
+    backward = edges[chosen, 0] != tails[chosen]
+    return np.where(backward[:, None], edges[chosen, ::-1], edges[chosen])
+
+
+def _read_points(obj):
+    return attributes.values(_shown_points(obj), "co", np.float32, 3).astype(np.float64)
+
+
+def _shown_points(obj):
+    """Edit Mode shows the active shape key; the mesh's own vertices stay those of the reference key."""
+    if attributes.is_edited(obj) and obj.data.shape_keys:
+        editing = _editing_object(obj)
+        if editing.active_shape_key_index > 0:
+            return editing.active_shape_key.data
+    return obj.data.vertices
+
+
+def _editing_object(obj):
+    """The one through which a mesh is in Edit Mode: each of those that share it has an active key of its own."""
+    if obj.mode == "EDIT":
+        return obj
+    return next((other for other in bpy.data.objects if other.data == obj.data and other.mode == "EDIT"), obj)
+
+
+def _determinants(axes, corners):
+    """The sum over triangles; numpy's cross products would take ten times as long."""
+    (ax, bx, cx), (ay, by, cy), (az, bz, cz) = (axis[corners] for axis in axes)
+    return float(np.sum(ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)))

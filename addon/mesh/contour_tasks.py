@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From what is selected in Edit Mode to the contours that are searched; changes nothing there."""
+
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from ..core import edge_paths, messages
+from ..core.outcomes import Outcome
+from ..core.search import ContourSearch
+from . import constraint_layers
+from .arrays import is_inside_out, is_unevenly_scaled, read_selection, synchronize, with_mirror_images
+from .surface_cache import arrays_and_surface_of
+
+
+@dataclass
+class ContourTask(ContourSearch):
+    """The selected contours of one object."""
+
+    obj: bpy.types.Object = None
+    mirrored: bool = False  # whether there are contours that were not selected, but their mirror images
+    asymmetric: bool = False  # whether mirror images were asked for and are not there
+
+    def old_edges(self):
+        """The edges of the contours that have a result, as selected."""
+        edge_lists = [outcome.edges for outcome in self.done()]
+        return np.concatenate(edge_lists) if edge_lists else np.empty((0, 2), dtype=np.int32)
+
+
+def read_tasks(objects, face_mode, close=False, constraints=None):
+    """A task for each object, with an outcome for each connected piece of its selection; nothing is optimized yet.
+
+    With `close`, chains of edges are to be closed first. `constraints` are settings that name layers.
+    """
+    tasks = [read_task(obj, face_mode, close) for obj in objects]
+    for task in tasks:
+        if task.sound():
+            try:
+                task.arrays, task.surface = arrays_and_surface_of(task.obj, beside=objects)
+                task.constraints = constraint_layers.read(task.obj, **(constraints or {}))
+            except ValueError as error:
+                task.fail(error)
+    return tasks
+
+
+def read_task(obj, face_mode, close=False):
+    """The selected contours of one object, without its surface."""
+    synchronize(obj)
+    selection = read_selection(obj, face_mode)
+    mirror = obj.data.use_mirror_x and len(selection.edges) > 0
+    images = with_mirror_images(obj, selection.edges) if mirror else None
+    edges = selection.edges if images is None else images
+    outcomes = _outcomes(obj.name, edges, face_mode)
+    if selection.borderless:
+        outcomes.append(Outcome(obj.name, edges, problem=messages.NO_BORDER))
+    for outcome in outcomes:
+        outcome.closing = close and not face_mode and not outcome.closed
+        outcome.problem = outcome.problem or _problem(outcome, selection.loose)
+    mirrored = len(edges) > len(selection.edges)
+    return ContourTask(outcomes, face_mode, obj=obj, mirrored=mirrored, asymmetric=mirror and images is None)
+
+
+def warnings(tasks):
+    """What the user should know about how the objects are measured in which something was found; before any output."""
+    return [warning for task in tasks if task.done() for warning in warnings_of(task)]
+
+
+def warnings_of(task):
+    """The same of one object; also for a NetworkTask."""
+    found = []
+    if is_unevenly_scaled(task.obj):
+        found.append(messages.uneven_scale(task.obj.name))
+    if is_inside_out(task.obj, task.arrays):
+        found.append(messages.inside_out(task.obj.name))
+    if task.asymmetric:
+        found.append(messages.not_mirrored(task.obj.name))
+    return found
+
+
+def _outcomes(place, edges, face_mode):
+    """One outcome for each connected piece; in face mode with the part to the left."""
+    pieces = edge_paths.sort_edges(edges)
+    given = [(loop, True) for loop in pieces.loops] + [(chain, False) for chain in pieces.chains]
+    if face_mode:
+        given = [(edge_paths.along(vertices, edges, closed), closed) for vertices, closed in given]
+    branching = [
+        Outcome(place, piece, problem=messages.branching(edge_paths.branch_vertices(piece)))
+        for piece in pieces.branching
+    ]
+    return [Outcome.of(place, vertices, closed) for vertices, closed in given] + branching
+
+
+def _problem(outcome, loose_edges):
+    """Why a contour is not handed to the search at all; empty where it is."""
+    loose = edge_paths.common_edges(outcome.edges, loose_edges)
+    if len(loose):
+        return messages.loose(loose, outcome.closed)
+    if len(outcome.edges) == 1 and not outcome.closing:
+        return messages.single_edge(outcome.vertices)
+    return ""

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Marks of edges, as seam or sharp, and the selection, in meshes in Edit Mode; and what Blender makes of new seams."""
+
+from contextlib import contextmanager
+
+import bmesh
+import bpy
+
+from .arrays import find_edges
+
+MARKS = {"SEAM": ("seam", True), "SHARP": ("smooth", False)}
+
+
+def move_mark(mesh, output, old_edges, new_edges, selection=False):
+    """Takes a mark, and the selection, from edges and gives it to others, both as pairs of vertices; in Edit Mode."""
+    bm = bmesh.from_edit_mesh(mesh)
+    for pairs, value in ((old_edges, False), (new_edges, True)):
+        edges = find_edges(bm, pairs)
+        set_mark(edges, output, value)
+        if selection:
+            select_each([edges], value)
+    if selection:
+        flush_selection(bm)
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+
+
+def unwrap_live(context, meshes):
+    """Blender's own seam tool unwraps again where Live Unwrap is on; with nothing selected that is all that it does."""
+    if not context.tool_settings.use_edge_path_live_unwrap:
+        return
+    with nothing_selected(meshes):
+        bpy.ops.mesh.mark_seam(clear=False)
+
+
+def set_mark(edges, output, value):
+    name, meaning = MARKS[output]
+    for edge in edges:
+        setattr(edge, name, meaning if value else not meaning)
+
+
+def select_each(element_lists, value):
+    for elements in element_lists:
+        for element in elements:
+            if element.is_valid:
+                element.select_set(value)
+
+
+def flush_selection(bm):
+    """Lets everything follow that hangs on what is selected, as the select mode has it."""
+    bm.select_flush_mode()
+    bm.select_history.validate()
+
+
+@contextmanager
+def nothing_selected(meshes):
+    """Deselects everything for Blender's own operators; afterwards what is left of it is selected again."""
+    bms = [bmesh.from_edit_mesh(mesh) for mesh in meshes]
+    selected = [
+        [element for kind in (bm.verts, bm.edges, bm.faces) for element in kind if element.select] for bm in bms
+    ]
+    select_each(selected, False)
+    yield
+    select_each(selected, True)
+    for mesh, bm in zip(meshes, bms):
+        bm.select_flush_mode()
+        bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Networks whose contours run across faces: cut into the mesh, they are networks along edges again."""
+
+from contextlib import contextmanager
+from dataclasses import replace
+
+import bmesh
+import bpy
+import numpy as np
+
+from ..core import networks
+from ..core.region_check import RegionCheck
+from ..core.topology import make_topology
+from . import attributes, custom_normals, cutting
+from .arrays import read_edge_arrays, read_labels, synchronize
+
+_ORIGIN = "minimum_ratio_contours_origin"
+
+
+def check_when_cut(obj, plan, merge=0.0):
+    """The plan with as many contours taken as leave every region in one piece once they are cut in.
+
+    They are cut into copies of a synchronized mesh, until nothing is wrong: which faces a border divides, and whether
+    they still hang together, only the cut mesh can tell. The mesh itself stays as it is.
+    """
+    if plan.region_check is not None:
+        return plan
+    lost = {}
+    while True:
+        tried = _with_lost(plan, lost)
+        found = _lost_when_cut(obj, tried, merge) if tried.moved() else {}
+        if not found:
+            return tried
+        lost |= found
+
+
+def cut(obj, plan, merge=0.0):
+    """Cuts the contours that a checked plan takes into a synchronized mesh; gives the plan of the mesh as it is then.
+
+    Custom normals are noted on the mesh, to be restored once the plan is written.
+    """
+    if not plan.across_faces:
+        return plan
+    with _opened(obj) as bm:
+        custom_normals.keep(obj, bm, cutting.faces_cut(_results(plan)))
+        given, paths = _cut(bm, plan, merge)
+    synchronize(obj)
+    return networks.check_cut(plan, _topology(obj), given, paths)
+
+
+def restore_normals(context, obj):
+    """Sets the custom normals that were noted, once the plan is written."""
+    if custom_normals.are_noted(obj.data):
+        custom_normals.restore(context) if attributes.is_edited(obj) else custom_normals.set_noted(obj.data)
+
+
+def _with_lost(plan, lost):
+    """The plan in which all new paths are taken but those that are lost."""
+    everything_stays = np.arange(plan.topology.face_count)
+    taken = [path is not None and i not in lost for i, path in enumerate(plan.paths)]
+    return replace(plan, region_check=RegionCheck(taken, dict(lost), everything_stays, everything_stays))
+
+
+def _lost_when_cut(obj, plan, merge):
+    """Of the contours taken, those that must stay, with a face of the region that would be lost, or -1."""
+    with _copy(obj) as bm:
+        origin = bm.faces.layers.int.new(_ORIGIN)
+        for i, face in enumerate(bm.faces):
+            face[origin] = i
+        try:
+            given, paths = _cut(bm, plan, merge)
+        except cutting.Crossing as crossing:
+            return {i: -1 for i in plan.moved() if crossing.face in plan.results[i].segment_faces}
+        topology, origins = _read_copy(bm)
+    lost = networks.check_cut(plan, topology, given, paths).region_check.lost
+    return {i: int(origins[region]) if region >= 0 else -1 for i, region in lost.items()}
+
+
+def _cut(bm, plan, merge):
+    """The vertices of all chains, and of all new paths, in the mesh with the contours cut into it."""
+    rounds = [np.append(chain.vertices, chain.vertices[: chain.closed]).tolist() for chain in plan.chains]
+    ids, followed = cutting.cut_and_follow(bm, _results(plan), rounds, merge)
+    paths = dict(zip(plan.moved(), ids))
+    given = [path[: len(path) - chain.closed] for path, chain in zip(followed, plan.chains)]
+    return given, [paths.get(i) for i in range(len(given))]
+
+
+def _results(plan):
+    return [plan.results[i] for i in plan.moved()]
+
+
+def _topology(obj):
+    return make_topology(**vars(read_edge_arrays(obj)))
+
+
+@contextmanager
+def _copy(obj):
+    """A bmesh like the mesh, in the same order."""
+    bm = bmesh.from_edit_mesh(obj.data).copy() if attributes.is_edited(obj) else _loaded(obj.data)
+    try:
+        yield bm
+    finally:
+        bm.free()
+
+
+@contextmanager
+def _opened(obj):
+    """The mesh itself as a bmesh, whose changes are written in the end."""
+    mesh = obj.data
+    if attributes.is_edited(obj):
+        bm = bmesh.from_edit_mesh(mesh)
+        yield bm
+        bm.select_flush_mode()
+        bmesh.update_edit_mesh(mesh, loop_triangles=True, destructive=True)
+        return
+    bm = _loaded(mesh)
+    try:
+        yield bm
+        bm.to_mesh(mesh)
+    finally:
+        bm.free()
+    mesh.update()
+
+
+def _loaded(mesh):
+    bm = bmesh.new()
+    bm.from_mesh(mesh)
+    return bm
+
+
+def _read_copy(bm):
+    """The topology of a bmesh, and of which face each of its faces is a piece: by an object, whose arrays are fast."""
+    mesh = bpy.data.meshes.new(_ORIGIN)
+    obj = bpy.data.objects.new(_ORIGIN, mesh)
+    try:
+        bm.to_mesh(mesh)
+        return _topology(obj), read_labels(obj, _ORIGIN)
+    finally:
+        bpy.data.objects.remove(obj)
+        bpy.data.meshes.remove(mesh)

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The seams of a mesh as a network of contours, and back."""
+
+from ..core.chains import make_network
+from ..core.outcomes import network_outcomes
+from ..core.topology import make_topology
+from . import attributes, edge_marks
+from .arrays import read_edge_arrays, read_seams, with_mirror_images, write_seams
+
+
+def read_network(obj, selected_only=False):
+    """A synchronized mesh's seams; those among its selected edges move, or all.
+
+    Every island of the UV map stays one island, on the same side of its seams.
+    """
+    topology = make_topology(**vars(read_edge_arrays(obj)))
+    seams, selected = read_seams(obj)
+    chosen = seams & (selected | _images(obj, topology, seams & selected)) if selected_only else seams
+    return make_network(topology, seams, chosen)
+
+
+def lacks_images(obj):
+    """Whether selected seams of a synchronized mesh should have mirror images, and some have none."""
+    seams, selected = read_seams(obj)
+    return obj.data.use_mirror_x and _with_images(obj, seams & selected) is None
+
+
+def _images(obj, topology, chosen):
+    """The chosen edges and, where X Mirror is on and the mesh is symmetric, their mirror images."""
+    both = _with_images(obj, chosen) if obj.data.use_mirror_x and chosen.any() else None
+    if both is None:
+        return chosen
+    images = chosen.copy()
+    images[topology.find(both)[0]] = True
+    return images
+
+
+def _with_images(obj, chosen):
+    edges = read_edge_arrays(obj).edges[chosen]
+    return with_mirror_images(obj, edges, may_branch=True) if len(edges) else edges
+
+
+def only_seams_selected(obj):
+    """Whether the selection of a synchronized mesh is one of seams; then it moves with them."""
+    seams, selected = read_seams(obj)
+    return not (selected & ~seams).any()
+
+
+def write(obj, plan, selection=False):
+    """Moves the seams; in Edit Mode the selection along them too, where that is wanted."""
+    if attributes.is_edited(obj):
+        edge_marks.move_mark(obj.data, "SEAM", plan.old_edges(), plan.new_edges(), selection)
+    else:
+        edges = (plan.topology.find(pairs)[0] for pairs in (plan.old_edges(), plan.new_edges()))
+        write_seams(obj.data, *edges)
+
+
+def outcomes(place, plan):
+    """What became of each chain that could have moved."""
+    return network_outcomes(place, plan, lambda _: "a seam whose move would join or split islands")

@@ -1,0 +1,319 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sidebar panels and the numbers of the last result."""
+
+import textwrap
+
+import bpy
+from bpy.props import CollectionProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
+
+from ..core import messages, native
+from ..core.parameters import CONSTRAINTS, MAIN, MORE, NETWORK
+from . import show_directions
+
+OPERATOR = "mesh.optimize_contour"
+NETWORK_OPERATORS = ("mesh.optimize_seams", "mesh.optimize_segmentation")
+_SHARED = (*NETWORK, "merge")  # what networks take from the settings
+_SHOWN = 8  # contours with their numbers in the panel
+
+
+class ContourNumbers(bpy.types.PropertyGroup):
+    """The numbers of one contour, for display."""
+
+    place: StringProperty()
+    status: StringProperty()
+    initial_ratio: FloatProperty()
+    ratio: FloatProperty()
+    salience: StringProperty()
+    length: FloatProperty()
+    reason: StringProperty()
+    faces: IntProperty()
+    milliseconds: FloatProperty()
+
+
+class LastResult(bpy.types.PropertyGroup):
+    """What the last run of an operator said and found."""
+
+    message: StringProperty()
+    contours: CollectionProperty(type=ContourNumbers)
+
+
+def show_result(context, message, outcomes):
+    """Puts a message and the numbers of the results into the panel."""
+    last = context.window_manager.minimum_ratio_contours
+    last.message = message
+    last.contours.clear()
+    for outcome in outcomes:
+        if outcome.result is not None:
+            _fill(last.contours.add(), outcome)
+
+
+def remember(context, values, operator=OPERATOR):
+    """Lets the operator's next run from the panel or a menu start from these values, of those that it has."""
+    settings = context.window_manager.operator_properties_last(operator)
+    for name, value in values.items():
+        if hasattr(settings, name):
+            setattr(settings, name, value)
+
+
+def draw_redo(layout, operator, obj):
+    """All settings of an operator on selected contours; the many that are seldom changed unfold."""
+    draw_settings(layout, operator)
+    if _unfolded(layout, operator, "show_more"):
+        draw_more_settings(layout, operator)
+    if _unfolded(layout, operator, "show_constraints"):
+        draw_constraints(layout, operator, obj)
+
+
+def _unfolded(layout, operator, name):
+    shown = getattr(operator, name)
+    row = layout.row()
+    row.use_property_split = False
+    row.alignment = "LEFT"
+    row.prop(operator, name, icon="DOWNARROW_HLT" if shown else "RIGHTARROW", emboss=False)
+    return shown
+
+
+def draw_settings(layout, settings):
+    """The main settings, for the panel and the redo panel alike."""
+    layout.use_property_split = True
+    layout.use_property_decorate = False
+    layout.prop(settings, "output")
+    row = layout.row()
+    row.enabled = settings.output in ("SEAM", "SHARP")
+    row.prop(settings, "keep_old")
+    row = layout.row()
+    row.enabled = settings.output in ("RIP", "SEPARATE")
+    row.prop(settings, "fill_holes")
+    _draw_properties(layout, settings, ("close",))
+    draw_search_settings(layout, settings)
+
+
+def draw_search_settings(layout, settings):
+    """Those that say where and how is searched."""
+    column = layout.column()
+    column.enabled = not settings.whole_surface
+    column.prop(settings, "width")
+    column.prop(settings, "reach")
+    row = layout.row(heading="Whole")  # the name as one would not fit into a sidebar of the usual width
+    row.prop(settings, "whole_surface", text="Surface")
+    _draw_properties(layout, settings, MAIN)
+
+
+def draw_more_settings(layout, settings):
+    layout.use_property_split = True
+    layout.use_property_decorate = False
+    _draw_properties(layout, settings, MORE)
+    if hasattr(settings, "merge"):
+        row = layout.row()
+        row.enabled = settings.refinement > 0
+        row.prop(settings, "merge")
+
+
+def _draw_properties(layout, settings, names):
+    """Those that the operator has."""
+    for name in names:
+        if hasattr(settings, name):
+            layout.prop(settings, name)
+
+
+def draw_constraints(layout, settings, obj):
+    """What contours keep to; names of layers are picked from those of the active object."""
+    layout.use_property_split = True
+    layout.use_property_decorate = False
+    layout.prop_search(settings, "required_group", obj, "vertex_groups")
+    _draw_marks(layout, settings, "barrier_marks")
+    layout.separator()
+    layout.prop_search(settings, "attractor_group", obj, "vertex_groups")
+    _draw_marks(layout, settings, "attractor_marks")
+    column = layout.column()
+    column.enabled = bool(settings.attractor_group or settings.attractor_marks)
+    column.prop(settings, "attractor_strength")
+    column.prop(settings, "attractor_radius")
+    layout.separator()
+    layout.prop(settings, "region_source")
+    column = layout.column()
+    column.enabled = settings.region_source != "NONE"
+    places = {"ATTRIBUTE": (obj.data, "attributes"), "COLOR": (obj.data, "color_attributes")}
+    column.prop_search(settings, "region_layer", *places.get(settings.region_source, (obj, "vertex_groups")))
+    column.prop(settings, "region_strength")
+
+
+def _draw_marks(layout, settings, name):
+    """Below their label: beside it three names would not fit into a sidebar of the usual width."""
+    column = layout.column(align=True)
+    column.use_property_split = False
+    column.label(text=CONSTRAINTS[name]["name"])
+    column.row(align=True).prop(settings, name, expand=True)
+
+
+class InSidebar:
+    """Where the panels are."""
+
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Contours"
+
+
+class InMainPanel(InSidebar):
+    """Where the panels below the main one are."""
+
+    bl_parent_id = "VIEW3D_PT_minimum_ratio_contours"
+
+
+class VIEW3D_PT_minimum_ratio_contours(InSidebar, bpy.types.Panel):
+    bl_label = "Contours"
+    bl_context = "mesh_edit"
+
+    def draw(self, context):
+        layout = self.layout
+        problem = native.problem()
+        if problem:
+            _draw_text(layout, context, problem, "ERROR")
+            return
+        column = layout.column(align=True)
+        column.scale_y = 1.3
+        column.operator(OPERATOR, icon="MOD_EDGESPLIT")
+        column.operator("mesh.adjust_contour", icon="HIDE_OFF")
+        # The panel's settings are the operator's own: those of the last run, which the next run from the panel takes.
+        draw_settings(layout.column(), _remembered(context))
+
+    def draw_header_preset(self, context):
+        bpy.types.VIEW3D_PT_minimum_ratio_contours_presets.draw_panel_header(self.layout)
+
+
+class VIEW3D_PT_minimum_ratio_contours_result(InMainPanel, bpy.types.Panel):
+    bl_label = "Last Result"
+
+    @classmethod
+    def poll(cls, context):
+        return bool(context.window_manager.minimum_ratio_contours.message)
+
+    def draw(self, context):
+        _draw_result(self.layout, context, context.window_manager.minimum_ratio_contours)
+
+
+class VIEW3D_PT_minimum_ratio_contours_more(InMainPanel, bpy.types.Panel):
+    bl_label = "More Settings"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        draw_more_settings(self.layout.column(), _remembered(context))
+
+
+class VIEW3D_PT_minimum_ratio_contours_constraints(InMainPanel, bpy.types.Panel):
+    bl_label = "Constraints"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        draw_constraints(self.layout.column(), _remembered(context), context.object)
+
+
+class VIEW3D_PT_minimum_ratio_contours_networks(InMainPanel, bpy.types.Panel):
+    bl_label = "Whole Mesh"
+
+    def draw(self, context):
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        seams, regions = map(context.window_manager.operator_properties_last, NETWORK_OPERATORS)
+        _draw_network_operator(layout, context, "mesh.optimize_seams", icon="UV_EDGESEL")
+        layout.prop(seams, "selected_only")
+        _draw_network_operator(layout, context, "mesh.optimize_segmentation", icon="FACE_MAPS")
+        layout.prop(regions, "source")
+        if regions.source == "ATTRIBUTE":
+            layout.prop_search(regions, "attribute", context.object.data, "attributes")
+
+
+class VIEW3D_PT_minimum_ratio_contours_curvature(InMainPanel, bpy.types.Panel):
+    bl_label = "Curvature"
+
+    def draw(self, context):
+        column = self.layout.column(align=True)
+        column.operator("mesh.show_curvature", text="Show Colors", icon="COLOR")
+        is_shown = show_directions.is_shown()
+        column.operator(
+            "mesh.show_curvature_directions", text="Directions", icon="ORIENTATION_NORMAL", depress=is_shown
+        )
+
+
+def _draw_network_operator(layout, context, name, icon):
+    """A button whose operator takes the settings of the panel above it."""
+    button, settings = layout.operator(name, icon=icon), _remembered(context)
+    for setting in _SHARED:
+        setattr(button, setting, getattr(settings, setting))
+
+
+def _remembered(context):
+    return context.window_manager.operator_properties_last(OPERATOR)
+
+
+def _draw_result(layout, context, last):
+    _draw_text(layout, context, last.message, "INFO")
+    for numbers in last.contours[:_SHOWN]:
+        _draw_numbers(layout.box(), context, numbers, several=len(last.contours) > 1)
+    if len(last.contours) > _SHOWN:
+        layout.label(text=f"and {len(last.contours) - _SHOWN} more")
+
+
+def _draw_numbers(box, context, numbers, several):
+    """Of one contour all numbers. Of several the reasons, which the message gives too, but not of which of them."""
+    icon = "CHECKMARK" if numbers.status == "improved" else "DOT"
+    box = box.column(align=True)
+    _draw_text(box, context, f"{numbers.place}: {numbers.status}", icon)
+    if several:
+        _draw_text(box, context, numbers.reason or numbers.salience, "BLANK1")
+        return
+    units = context.scene.unit_settings
+    length = bpy.utils.units.to_string(units.system, "LENGTH", numbers.length * units.scale_length, precision=3)
+    lines = (
+        numbers.salience,
+        f"Ratio {numbers.initial_ratio:.3g} to {numbers.ratio:.3g}",
+        f"Length {length}",
+        f"{numbers.faces} faces, {numbers.milliseconds:.1f} ms",
+    )
+    for line in filter(None, lines):
+        box.label(text=line, icon="BLANK1")
+
+
+def _draw_text(layout, context, text, icon):
+    """Labels do not wrap by themselves. About 70 points go to margins, icon and tabs, and 6.5 to a character."""
+    points = context.region.width / context.preferences.system.ui_scale
+    column = layout.column(align=True)
+    for index, line in enumerate(textwrap.wrap(text, max(16, int((points - 70) / 6.5)))):
+        column.label(text=line, icon=icon if index == 0 else "BLANK1")
+
+
+def _fill(numbers, outcome):
+    numbers.place = outcome.place
+    numbers.status = outcome.result.status
+    numbers.initial_ratio = outcome.result.initial_ratio
+    numbers.ratio = outcome.result.ratio
+    numbers.salience = messages.salience(outcome.result)
+    numbers.length = messages.length(outcome.result)
+    numbers.reason = messages.reason(outcome.result)
+    numbers.faces = outcome.result.statistics["faces"]
+    numbers.milliseconds = messages.milliseconds(outcome.result)
+
+
+_CLASSES = (
+    ContourNumbers,
+    LastResult,
+    VIEW3D_PT_minimum_ratio_contours,
+    VIEW3D_PT_minimum_ratio_contours_networks,
+    VIEW3D_PT_minimum_ratio_contours_curvature,
+    VIEW3D_PT_minimum_ratio_contours_result,
+    VIEW3D_PT_minimum_ratio_contours_constraints,
+    VIEW3D_PT_minimum_ratio_contours_more,
+)
+
+
+def register():
+    for cls in _CLASSES:
+        bpy.utils.register_class(cls)
+    bpy.types.WindowManager.minimum_ratio_contours = PointerProperty(type=LastResult)
+
+
+def unregister():
+    del bpy.types.WindowManager.minimum_ratio_contours
+    for cls in reversed(_CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,321 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Searches in a thread of their own. Without a window there are no events, so a stand-in for Blender's operator has its
+steps called by hand; what it does to the meshes is real."""
+
+import threading
+from types import SimpleNamespace
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+from made_meshes import (
+    GROOVE,
+    RINGS,
+    SEGMENTS,
+    edge_set,
+    edit,
+    everything,
+    flagged,
+    grooved_cylinder,
+    pairs,
+    ring,
+    rough_loop,
+    select,
+    set_flag,
+)
+from minimum_ratio_contours import api
+from minimum_ratio_contours.core import messages, parameters, search
+from minimum_ratio_contours.mesh import contour_tasks
+from minimum_ratio_contours.ui import background_search, network_operators, operators
+
+LOOP = rough_loop(GROOVE - 3)
+TIMER, ESC = SimpleNamespace(type="TIMER", value="NOTHING"), SimpleNamespace(type="ESC", value="PRESS")
+RIGHT_CLICK = SimpleNamespace(type="RIGHTMOUSE", value="PRESS")
+
+
+# ---- a search
+
+
+def endless(progress):
+    while True:
+        progress(0.25)
+
+
+def test_a_search_tells_its_fraction_and_ends_when_canceled():
+    running = background_search.BackgroundSearch(endless)
+    assert not running.wait(0.01)
+    assert running.fraction == 0.25
+    running.cancel()
+    assert running.wait(10)
+    with pytest.raises(background_search.Cancelled):
+        running.finish()
+
+
+def test_what_a_search_raises_is_raised_where_it_is_awaited():
+    with pytest.raises(ZeroDivisionError):
+        background_search.BackgroundSearch(lambda progress: 1 / 0).finish()
+
+
+def test_a_native_search_ends_at_the_next_word_of_its_progress():
+    surface = api.surface_of(grooved_cylinder())
+    fractions, results, named = [], [], threading.Event()
+
+    def search_once(progress):
+        def leave(fraction):
+            fractions.append(fraction)
+            running.cancel()
+            return progress(fraction)
+
+        named.wait()
+        results.append(api.optimize_on(surface, LOOP, progress=leave))
+
+    running = background_search.BackgroundSearch(search_once)
+    named.set()
+    with pytest.raises(background_search.Cancelled):
+        running.finish()
+    assert len(fractions) == 1
+    assert results == []
+
+
+def test_closing_a_contour_ends_at_the_next_word_of_its_progress():
+    surface = api.surface_of(grooved_cylinder())
+    fractions = []
+
+    def leave(fraction):
+        fractions.append(fraction)
+        raise background_search.Cancelled
+
+    with pytest.raises(background_search.Cancelled):
+        api.optimize_on(surface, LOOP[5:16], close=True, progress=leave)
+    assert fractions == [0.0]
+    result = api.optimize_on(surface, LOOP[5:16], close=True, progress=lambda done: fractions.append(done) or False)
+    assert result.status == "cancelled"
+    assert fractions == [0.0, 0.0]
+
+
+def test_closing_and_searching_share_one_progress():
+    obj = grooved_cylinder()
+    edit(obj)
+    select(obj, pairs(LOOP[5:16], closed=False))
+    tasks, fractions = contour_tasks.read_tasks([obj], face_mode=False, close=True), []
+    search.optimize_contours(tasks, {}, lambda fraction: fractions.append(fraction) or True)
+    assert fractions == sorted(fractions)
+    assert (fractions[0], fractions[-1]) == (0.0, 1.0)
+    assert 0.5 in fractions
+    (outcome,) = tasks[0].outcomes
+    whole = api.optimize_on(api.surface_of(obj), LOOP[5:16], close=True)
+    np.testing.assert_array_equal(outcome.result.vertices, whole.vertices)
+
+
+def test_several_searches_share_one_progress():
+    fractions = []
+    for i in range(4):
+        search.fraction_of(fractions.append, i, 4)(0.5)
+    assert fractions == [0.125, 0.375, 0.625, 0.875]
+    assert search.fraction_of(None, 0, 4) is None
+
+
+# ---- the operators
+
+MAX_TURN = parameters.SETTINGS["max_turn"]["default"]
+
+
+class Contour(operators.ContourOutput, operators.InEditMode, background_search.SearchOperator):
+    output, keep_old, fill_holes, merge, close, max_turn = "SEAM", False, False, 0.0, False, MAX_TURN
+
+    def constraints(self):
+        return {}
+
+
+class Seams(network_operators.NetworkOperator):
+    selected_only, merge, max_turn = False, 0.0, MAX_TURN
+
+
+class Segmentation(network_operators.NetworkOperator):
+    source, attribute, merge, max_turn = "MATERIAL", "", 0.0, MAX_TURN
+
+
+REAL = {
+    Contour: operators.MESH_OT_optimize_contour,
+    Seams: network_operators.MESH_OT_optimize_seams,
+    Segmentation: network_operators.MESH_OT_optimize_segmentation,
+}
+
+
+def stand_in(kind):
+    """With the methods of the real operator, but made by hand: Blender makes operators only itself."""
+    real = REAL[kind]
+    own = {name: value for name, value in vars(real).items() if not name.startswith("__") and callable(value)}
+    operator = type(kind.__name__, (kind,), own | {"bl_label": real.bl_label, "nothing": "", "noun": "seams"})()
+    operator.settings = dict  # the defaults
+    operator.reported = []
+    operator.report = lambda level, message: operator.reported.append((level, message))
+    return operator
+
+
+class Manager:
+    """A window manager that notes what is shown."""
+
+    def __init__(self):
+        self.minimum_ratio_contours = bpy.context.window_manager.minimum_ratio_contours
+        self.shown, self.timers = [], 0
+
+    def progress_begin(self, low, high):
+        assert (low, high) == (0.0, 100.0)
+        self.shown.append("begin")
+
+    def progress_update(self, value):
+        self.shown.append(value)
+
+    def progress_end(self):
+        self.shown.append("end")
+
+    def event_timer_add(self, interval, window):
+        self.timers += 1
+        return "timer"
+
+    def event_timer_remove(self, timer):
+        self.timers -= 1
+
+    def modal_handler_add(self, operator):
+        pass
+
+
+class Context:
+    """Blender's context with a window."""
+
+    def __init__(self):
+        self.window, self.window_manager = "window", Manager()
+        self.status = []
+        self.workspace = SimpleNamespace(status_text_set=self.status.append)
+
+    def __getattr__(self, name):
+        return getattr(bpy.context, name)
+
+
+@pytest.fixture
+def impatient(monkeypatch):
+    """As in a window, with a timer for every search however short."""
+    monkeypatch.setattr(background_search, "bpy", SimpleNamespace(app=SimpleNamespace(background=False)))
+    kind = background_search.BackgroundSearch
+    monkeypatch.setattr(kind, "wait", _waits_only_when_asked(kind.wait))
+
+
+def _waits_only_when_asked(wait):
+    without_timer = background_search._WITHOUT_TIMER
+    return lambda running, seconds=None: False if seconds == without_timer else wait(running, seconds)
+
+
+def prepared():
+    """A cylinder with a rough loop selected, as a seam and as the border of a material."""
+    obj = grooved_cylinder()
+    obj.data.materials.append(bpy.data.materials.new("One"))
+    obj.data.materials.append(bpy.data.materials.new("Two"))
+    rows = GROOVE - 2 + np.random.default_rng(3).integers(-1, 2, SEGMENTS)
+    obj.data.polygons.foreach_set("material_index", (np.arange(RINGS - 1)[:, None] >= rows).ravel().astype(int))
+    edit(obj)
+    select(obj, pairs(LOOP))
+    set_flag(obj, pairs(LOOP), "seam")
+    return obj
+
+
+def until_done(operator, context):
+    for _ in range(10**6):
+        done = operator.modal(context, TIMER)
+        if done != {"RUNNING_MODAL"}:
+            return done
+    raise AssertionError("the search does not end")
+
+
+@pytest.mark.parametrize("kind", REAL)
+def test_done_by_a_timer_it_is_the_same_as_at_once(kind, impatient):
+    obj = prepared()
+    name = REAL[kind].bl_idname.split(".")[1]
+    given = {Contour: {"output": "SEAM"}, Seams: {}, Segmentation: {"source": "MATERIAL"}}[kind]
+    getattr(bpy.ops.mesh, name)(**given)
+    expected = everything(obj)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.data.objects.remove(obj)
+    obj, operator, context = prepared(), stand_in(kind), Context()
+    assert everything(obj) != expected
+    assert operator.invoke(context, None) == {"RUNNING_MODAL"}
+    assert until_done(operator, context) == {"FINISHED"}
+    assert everything(obj) == expected
+    assert (operator._tasks, operator._search) == (None, None)
+    fractions = context.window_manager.shown
+    assert (fractions[0], fractions[-1], context.window_manager.timers) == ("begin", "end", 0)
+    assert all(0 <= fraction <= 100 for fraction in fractions[1:-1])
+    assert "ESC: Cancel" in context.status[0]
+    assert context.status[-1] is None
+
+
+@pytest.mark.parametrize("event", [ESC, RIGHT_CLICK])
+@pytest.mark.parametrize("kind", REAL)
+def test_left_with_escape_the_mesh_is_as_it_was(kind, event, impatient, last):
+    obj, operator, context = prepared(), stand_in(kind), Context()
+    before = everything(obj)
+    operator.invoke(context, None)
+    running = operator._search
+    assert operator.modal(context, event) == {"CANCELLED"}
+    assert running.wait(60)
+    assert everything(obj) == before
+    assert operator.reported == [({"INFO"}, messages.CANCELLED)]
+    assert last.message == messages.CANCELLED
+    assert (context.window_manager.timers, context.status[-1]) == (0, None)
+
+
+@pytest.mark.parametrize("kind", REAL)
+def test_blender_may_end_it(kind, impatient):
+    """As when another file is opened."""
+    obj, operator, context = prepared(), stand_in(kind), Context()
+    before = everything(obj)
+    operator.invoke(context, None)
+    running = operator._search
+    operator.cancel(context)
+    assert running.wait(0)
+    assert everything(obj) == before
+    assert context.window_manager.timers == 0
+
+
+def move_a_vertex(obj):
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    bm.verts[7].co.x += 0.1
+    bmesh.update_edit_mesh(obj.data)
+
+
+def leave_edit_mode(_):
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def delete_the_object(obj):
+    bpy.data.objects.remove(obj)
+
+
+@pytest.mark.parametrize("change", [move_a_vertex, leave_edit_mode, delete_the_object])
+@pytest.mark.parametrize("kind", REAL)
+def test_a_mesh_that_was_changed_meanwhile_is_left_alone(kind, change, impatient):
+    obj, operator, context = prepared(), stand_in(kind), Context()
+    operator.invoke(context, None)
+    change(obj)
+    assert until_done(operator, context) == {"CANCELLED"}
+    assert operator.reported == [({"WARNING"}, messages.CHANGED_MEANWHILE)]
+    if change is move_a_vertex:
+        assert flagged(obj, "seam") == edge_set(LOOP)
+
+
+@pytest.mark.parametrize("kind", REAL)
+def test_what_takes_no_time_needs_no_timer(kind, monkeypatch):
+    monkeypatch.setattr(background_search, "bpy", SimpleNamespace(app=SimpleNamespace(background=False)))
+    monkeypatch.setattr(background_search, "_WITHOUT_TIMER", 60.0)
+    prepared()
+    operator, context = stand_in(kind), Context()
+    assert operator.invoke(context, None) == {"FINISHED"}
+    assert (context.window_manager.shown, context.status) == ([], [])
+
+
+def test_without_a_window_it_runs_at_once():
+    obj = prepared()
+    assert bpy.ops.mesh.optimize_contour("INVOKE_DEFAULT", output="SEAM") == {"FINISHED"}
+    assert flagged(obj, "seam") == edge_set(ring(GROOVE))
