@@ -48,12 +48,14 @@ def elements(bm):
 
 @pytest.mark.parametrize("make", [grooved_cylinder, changed_cylinder])
 @pytest.mark.parametrize("mode", ["EDIT", "OBJECT"])
-def test_columns_are_those_of_the_elements(make, mode):
+def test_attributes_are_those_of_the_elements(make, mode):
     obj = make()
     bpy.ops.object.mode_set(mode="EDIT")
     bm = bmesh.from_edit_mesh(obj.data)
     bm.faces.index_update()
-    expected = {column: [read(element) for element in elements(bm)[column[0]]] for column, read in PROPERTIES.items()}
+    expected = {
+        attribute: [read(element) for element in elements(bm)[attribute[0]]] for attribute, read in PROPERTIES.items()
+    }
     synchronize(obj)
     bpy.ops.object.mode_set(mode=mode)
     for (collection, name), values in expected.items():
@@ -62,7 +64,7 @@ def test_columns_are_those_of_the_elements(make, mode):
         assert found.dtype == TYPES.get(name, (bool,))[0]
 
 
-def test_a_column_may_be_read_while_another_mesh_is_edited():
+def test_an_attribute_may_be_read_while_another_mesh_is_edited():
     one, other = changed_cylinder(), grooved_cylinder("Other")
     assert other.data.is_editmode is False
     synchronize(one)

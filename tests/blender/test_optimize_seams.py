@@ -355,7 +355,7 @@ def test_api_on_an_instance_of_what_is_in_edit_mode():
 
 
 @pytest.mark.parametrize("name", sorted(parameters.SETTINGS.keys() - parameters.NETWORK))
-def test_where_the_ends_of_a_network_go_is_settled(name):
+def test_where_the_ends_of_a_network_go_is_fixed(name):
     obj = start(pairs(START))
     with pytest.raises(TypeError, match=name):
         run(**{name: parameters.SETTINGS[name]["default"]})

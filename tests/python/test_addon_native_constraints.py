@@ -164,7 +164,7 @@ def test_every_preset_is_a_set_of_native_options_that_differs_from_the_others():
     assert all(a != b for i, a in enumerate(found) for b in found[:i])
 
 
-def test_settings_and_constraints_are_told_apart():
+def test_settings_and_constraints_are_split():
     assert not parameters.SETTINGS.keys() & parameters.CONSTRAINTS.keys()
     assert parameters.split({"width": 3, "required_group": "Pins", "widht": 2}) == (
         {"width": 3, "widht": 2},

@@ -97,4 +97,4 @@ def test_every_function_of_the_api_is_explained():
     functions = [node for node in ast.parse(API.read_text()).body if isinstance(node, ast.FunctionDef)]
     public = {node.name: ast.get_docstring(node) for node in functions if not node.name.startswith("_")}
     assert {"optimize_contour", "optimize_seams", "optimize_segmentation"} <= public.keys()
-    assert {name for name, said in public.items() if not said} <= {"unregister"}
+    assert all(public.values())
