@@ -69,7 +69,7 @@ scalars = st.one_of(
 )
 dtypes = st.one_of(
     arrays.scalar_dtypes(),
-    st.sampled_from([np.dtype(object), np.dtype("f16"), np.dtype("<i4"), np.dtype(">i4"), np.dtype(">f8")]),
+    st.sampled_from([np.dtype(object), np.dtype(np.longdouble), np.dtype("<i4"), np.dtype(">i4"), np.dtype(">f8")]),
 )
 shapes = st.one_of(
     arrays.array_shapes(min_dims=0, max_dims=3, min_side=0, max_side=5),
