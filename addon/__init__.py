@@ -6,12 +6,13 @@ import sys
 bl_info = {
     "name": "Minimum Ratio Contours",
     "author": "Minimum Ratio Contours developers",
-    "version": (0, 1, 0),
+    "version": (0, 0, 0),  # packaging puts that of CMakeLists.txt here and in the manifest
     "blender": (3, 4, 0),
     "location": "Edit Mode > Sidebar > Contours, and Edge > Optimize Contour",
     "description": "Moves rough edge loops to the part boundaries nearby",
     "category": "Mesh",
 }
+VERSION = ".".join(map(str, bl_info["version"]))  # kept, since Blender deletes the bl_info of an extension
 
 # An upgrade in a running Blender reloads this file alone: forget the others, so that they are loaded anew. The compiled
 # module cannot be; core/native.py tells it from the version that belongs here.

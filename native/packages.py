@@ -41,18 +41,22 @@ def package_name(wheels, kind):
 
 def manifest(wheel):
     """The source's manifest, with what only a package can say."""
-    _, python, platform = read_name(wheel)
+    version, python, platform = read_name(wheel)
     first, end = EXTENSION_RELEASES[python]
     text = (ADDON / "blender_manifest.toml").read_text(encoding="utf-8")
+    text = text.replace('\nversion = "0.0.0"', f'\nversion = "{version}"')
     text = text.replace('blender_version_min = "4.2.0"', f'blender_version_min = "{first}"')
     if end:
         text += f'blender_version_max = "{end}"\n'
     return text + f'platforms = ["{platform}"]\nwheels = ["./wheels/{wheel.name}"]\n'
 
 
-def sources():
-    """The add-on's Python files, by their names in the package."""
-    return {path.relative_to(ADDON).as_posix(): path for path in sorted(ADDON.rglob("*.py"))}
+def sources(version):
+    """The add-on's Python files, by their names in the package. Of them `__init__.py` says the version."""
+    files = {path.relative_to(ADDON).as_posix(): path.read_bytes() for path in sorted(ADDON.rglob("*.py"))}
+    numbers = ", ".join(version.split("."))
+    files["__init__.py"] = files["__init__.py"].replace(b'"version": (0, 0, 0)', f'"version": ({numbers})'.encode())
+    return files
 
 
 def build_extension(wheel, output, tool):
@@ -60,9 +64,9 @@ def build_extension(wheel, output, tool):
     package = output / package_name([wheel], "extension")
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
-        for name, source in sources().items():
+        for name, content in sources(read_name(wheel)[0]).items():
             (folder / name).parent.mkdir(exist_ok=True)
-            shutil.copyfile(source, folder / name)
+            (folder / name).write_bytes(content)
         (folder / "blender_manifest.toml").write_text(manifest(wheel), encoding="utf-8")
         (folder / "wheels").mkdir()
         shutil.copyfile(wheel, folder / "wheels" / wheel.name)
@@ -77,7 +81,7 @@ def build_extension(wheel, output, tool):
 def build_legacy(wheels, output):
     """One folder with the add-on, the modules for all Pythons, the libraries that they need, and the licenses."""
     package = output / package_name(wheels, "legacy")
-    files = {"": b""} | {name: source.read_bytes() for name, source in sources().items()}
+    files = {"": b""} | sources(read_name(wheels[0])[0])
     for wheel in wheels:
         files |= _library_files(wheel)
     with ZipFile(package, "w", ZIP_DEFLATED) as content:

@@ -6,7 +6,9 @@ import re
 import sys
 from pathlib import Path
 
-VERSION = "0.1.0"  # of the add-on; the compiled module must be of the same
+from .. import VERSION  # of the add-on; the compiled module must be of the same
+
+_UNPACKAGED = "0.0.0"  # what the source says: it goes with any module
 _ADDON = __package__.rpartition(".")[0]  # the add-on's own package, in whose folder a legacy add-on has the module
 
 
@@ -18,7 +20,7 @@ def module():
     """The compiled module. Raises Unavailable with a message for the user."""
     found = _import()
     version = getattr(found, "__version__", "unknown")
-    if version != VERSION:
+    if version != VERSION != _UNPACKAGED:
         # A running Blender keeps the compiled module that it has once loaded, also when the add-on is upgraded.
         raise Unavailable(
             f"The add-on is version {VERSION}, its compiled library version {version}: "

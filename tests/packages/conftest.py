@@ -92,6 +92,6 @@ def packages(pytestconfig):
 
 @pytest.fixture(scope="session")
 def version():
-    """The add-on's, as its source says it."""
-    source = (ROOT / "addon" / "core" / "native.py").read_text(encoding="utf-8")
-    return only(re.findall(r'^VERSION = "(.*?)"', source, re.MULTILINE))
+    """As its one home says it."""
+    source = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
+    return only(re.findall(r"^project\(.* VERSION (\S+)", source, re.MULTILINE))

@@ -75,8 +75,10 @@ def test_the_manifest_asks_for_no_permission_and_says_what_the_wheel_is_for(pack
 
 
 def test_versions_agree_everywhere(packages, version):
-    init = (ROOT / "addon" / "__init__.py").read_text(encoding="utf-8")
-    assert f'"version": {tuple(map(int, version.split(".")))}' in init
+    for kind, folder in (("extension", ""), ("legacy", "minimum_ratio_contours/")):
+        init = contents(packages[kind])[f"{folder}__init__.py"].decode()
+        assert f'"version": {tuple(map(int, version.split(".")))}' in init
+    assert manifest(packages["extension"])["version"] == version
     assert all(version in package.name for package in packages.values())
 
 

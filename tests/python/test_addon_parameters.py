@@ -53,15 +53,29 @@ def test_an_unknown_setting_is_named():
         parameters.native_options(widht=4)
 
 
-def test_one_version_everywhere():
-    manifest = (ROOT / "addon" / "blender_manifest.toml").read_text(encoding="utf-8")
+def versions(addon):
+    """What the manifest and the add-on's own dictionary in a folder say."""
+    manifest = (addon / "blender_manifest.toml").read_text(encoding="utf-8")
     (version,) = re.findall(r'^version = "(.*)"', manifest, re.MULTILINE)  # Python 3.10 has no tomllib
     (info,) = (
         ast.literal_eval(node.value)
-        for node in ast.parse((ROOT / "addon" / "__init__.py").read_text(encoding="utf-8")).body
-        if isinstance(node, ast.Assign)
+        for node in ast.parse((addon / "__init__.py").read_text(encoding="utf-8")).body
+        if isinstance(node, ast.Assign) and node.targets[0].id == "bl_info"
     )
-    assert version == native.VERSION == mrc.__version__ == ".".join(map(str, info["version"]))
+    return {version, ".".join(map(str, info["version"]))}
+
+
+def test_the_version_has_one_home():
+    cmake = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
+    assert [mrc.__version__] == re.findall(r"^project\(.* VERSION (\S+)", cmake, re.MULTILINE)
+    assert versions(ROOT / "addon") == {native.VERSION} == {"0.0.0"}
+
+
+def test_the_build_lays_out_the_add_on_with_the_version():
+    addon = Path(mrc.__file__).parent / "addons" / "minimum_ratio_contours"
+    if not addon.exists():
+        pytest.skip("the module is a wheel's")
+    assert versions(addon) == {mrc.__version__}
 
 
 def test_the_module_is_found():
@@ -89,6 +103,6 @@ def test_a_module_that_does_not_load_is_explained(monkeypatch, tmp_path):
 
 
 def test_another_version_asks_for_a_restart(monkeypatch):
-    monkeypatch.setattr(mrc, "__version__", "0.0.1")
+    monkeypatch.setattr(native, "VERSION", "0.0.1")
     with pytest.raises(native.Unavailable, match="restart Blender"):
         native.module()
