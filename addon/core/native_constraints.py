@@ -83,6 +83,7 @@ class Constraints:
 
     def _mean_density(self, faces, vertices):
         """Of those of the faces that have one of the vertices."""
+        assert self.density is not None
         corners, starts = self._corners(faces)
         touching = np.logical_or.reduceat(np.isin(corners, vertices), starts)
         return self.density[faces][touching].mean() if touching.any() else 0.0

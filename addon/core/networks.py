@@ -33,10 +33,12 @@ class Plan:
 
     @property
     def changed(self):
+        assert self.region_check is not None
         return any(self.region_check.taken)
 
     def taken_results(self):
         """The native results of the chains that were optimized and not refused afterwards."""
+        assert self.region_check is not None
         left = self.problems.keys() | self.region_check.lost.keys()
         return {
             i: result

@@ -13,7 +13,7 @@ class Outcome:
     """One contour of the selection: its native result, or the problem for which it was left as it is."""
 
     place: str  # the object's name
-    edges: np.ndarray  # as selected, (n, 2) vertex pairs
+    edges: np.ndarray | None  # as selected, (n, 2) vertex pairs; None where nothing could be read
     vertices: np.ndarray | None = None  # in order, where the edges do not branch
     closed: bool = True
     closing: bool = False  # an open chain as selected, which is closed first

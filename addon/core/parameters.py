@@ -5,10 +5,11 @@ The defaults are those that land closest to where people draw part boundaries.
 """
 
 import math
+from typing import Any
 
 # Each row is what a property of bpy.props takes, so that operators and documents share one wording and one default.
 # Lengths are measured in the mesh's own space; weights have no unit.
-SETTINGS = {
+SETTINGS: dict[str, dict[str, Any]] = {
     "width": {
         "name": "Width",
         "description": "How many rings of faces to each side of the loop are searched at most",
@@ -138,7 +139,7 @@ _MARKS = (
 )
 
 # What contours keep to besides being good; rows as above. Names are those of the mesh's own layers.
-CONSTRAINTS = {
+CONSTRAINTS: dict[str, dict[str, Any]] = {
     "required_group": {
         "name": "Required",
         "description": "Vertex group with the vertices that the contour must pass: those with a weight above 0",
@@ -205,7 +206,7 @@ CONSTRAINTS = {
 }
 
 # Named settings that suit a kind of work; what a preset does not name takes the user's default.
-PRESETS = {
+PRESETS: dict[str, tuple[str, str, dict[str, Any]]] = {
     "DEFAULT": ("Default", "What lands closest to where people draw part boundaries", {}),
     "NEAR": ("Tidy Up", "Only straighten the contour within a few rings of where it is", {"width": 3, "anchor": 2.0}),
     "FAR": (

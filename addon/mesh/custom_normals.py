@@ -55,9 +55,8 @@ def restore(context):
 
 def set_noted(mesh):
     """Sets those of a mesh outside Edit Mode."""
-    noted = np.empty(3 * len(mesh.loops), dtype=np.float32)
-    mesh.attributes[_NAME].data.foreach_get("vector", noted)
-    noted = noted.reshape(-1, 3)
+    noted = np.empty((len(mesh.loops), 3), dtype=np.float32)
+    mesh.attributes[_NAME].data.foreach_get("vector", noted.reshape(-1))
     mesh.attributes.remove(mesh.attributes[_NAME])
     lengths = np.linalg.norm(noted, axis=1)
     normals = _read(mesh)

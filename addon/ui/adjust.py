@@ -210,7 +210,7 @@ class MESH_OT_adjust_contour(ContourSettings, ContourConstraints, ContourOutput,
 
     def _finish(self, context):
         tasks, outside = self._tasks, self._outside
-        self._tasks = self._previews = self._outside = None  # Blender keeps past operators: not their meshes too
+        self._tasks, self._previews, self._outside = [], [], {}  # Blender keeps past operators: not their meshes too
         if outside:
             outputs.select_vertices(outside)
         if self._problem:

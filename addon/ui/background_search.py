@@ -7,6 +7,7 @@ waits for it by a timer; scripts and the redo panel, which have to wait, search 
 
 import threading
 from functools import partial
+from typing import TYPE_CHECKING, Any
 
 import bpy
 
@@ -70,6 +71,15 @@ class SearchOperator:
     settings() gives what `optimize` takes; conclude(context, level, message) tells the user why nothing was changed.
     Afterwards nothing is kept: operators stay alive for the redo panel.
     """
+
+    if TYPE_CHECKING:  # the operator's own
+        bl_label: str
+        read: Any
+        optimize: Any
+        apply: Any
+        settings: Any
+        conclude: Any
+        _search: Any  # a BackgroundSearch while it runs
 
     def execute(self, context):
         problem = native.problem()

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operators that optimize a whole network: all seams, or all borders between regions."""
 
+from typing import TYPE_CHECKING, Any
+
 import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
@@ -20,6 +22,16 @@ class NetworkOperator(NetworkSettings, CutSettings, InEditMode, SearchOperator):
 
     bl_options = {"REGISTER", "UNDO"}
     optimize = staticmethod(networks.optimize_networks)
+
+    if TYPE_CHECKING:  # the operator's own
+        noun: str
+        layout: bpy.types.UILayout
+        _read_network: Any
+        _draw_source: Any
+        _nothing: Any
+        _chain_outcomes: Any
+        _write: Any
+        _written: Any
 
     def read(self, context):
         objects = context.objects_in_mode_unique_data
@@ -58,7 +70,7 @@ class NetworkOperator(NetworkSettings, CutSettings, InEditMode, SearchOperator):
         task = NetworkTask(obj=obj)
         try:
             self._read_network(task)
-            if task.network.movable:
+            if task.network is not None and task.network.movable:
                 task.arrays, task.surface = arrays_and_surface_of(obj, beside=objects)
         except ValueError as error:
             task.problem = messages.problem(error)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operators: they alone talk to the user."""
 
+from typing import TYPE_CHECKING, Any
+
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
@@ -78,6 +80,10 @@ class CutSettings:
 class ContourOutput(CutSettings):
     """The properties that say what becomes of a contour, for every operator that outputs one."""
 
+    if TYPE_CHECKING:  # the operator's own
+        max_turn: float
+        conclude: Any
+
     output: EnumProperty(
         name="Output",
         description="What becomes of the contour found. Refined contours are cut into the faces in any case",
@@ -124,6 +130,10 @@ class Folds:
 
 class InEditMode:
     """Where the operators can be called, with the reason where they cannot, and how they talk to the user."""
+
+    if TYPE_CHECKING:  # every operator's
+        report: Any
+        poll_message_set: Any
 
     @classmethod
     def poll(cls, context):

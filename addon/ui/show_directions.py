@@ -135,6 +135,7 @@ def _undone(scene):
 
 
 def _postpone():
+    assert _shown is not None, "the handlers are there as long as the lines"
     _shown.show([])
     if bpy.app.timers.is_registered(_refresh):
         bpy.app.timers.unregister(_refresh)
@@ -144,7 +145,7 @@ def _postpone():
 def _refresh():
     try:
         objects = _edited(bpy.context)
-        if objects:
+        if objects and _shown is not None:
             _shown.show(read(objects)[0])
         else:
             remove()
