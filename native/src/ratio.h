@@ -2,6 +2,7 @@
 #pragma once
 
 #include "beat.h"
+#include "objective.h"
 
 #include <optional>
 #include <vector>
@@ -24,25 +25,6 @@ struct WeightedGraph {
 
     int node_count() const { return static_cast<int>(first_arc.size()) - 1; }
     int arc_count() const { return static_cast<int>(from.size()); }
-};
-
-/// What is minimized over paths with F = sum f and L = sum g: F / (scale L) + bias max(L, floor) (eq. 4.3, and 6.1 with a floor).
-///
-/// The paths below a value are those under a concave function h(L), so every straight line above it there rules paths out.
-struct Objective {
-    double scale = 1.0;
-    double bias = 0.0;   ///< 0: the plain ratio
-    double floor = 0.0;  ///< below this L nothing is gained by shrinking
-
-    double value(double F, double L) const;
-    /// h'(L): the slope of the curve of paths of this value at L.
-    double slope(double value, double L) const;
-    /// The L at which h - lambda L is largest, from the floor on; with a bias.
-    double peak(double value, double lambda) const;
-    /// The least objective on or above the line F = lambda L + height, from L = shortest on; with a bias.
-    double least_on_line(double lambda, double height, double shortest) const;
-    /// The most that a path below `value` may have for F - lambda L, that is the maximum of h(L) - lambda L.
-    double threshold(double value, double lambda) const;
 };
 
 struct RatioOptions {
