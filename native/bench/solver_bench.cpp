@@ -3,6 +3,7 @@
 // Karp's program. Arguments: faces of the band, and k.
 #include "cases.h"
 #include "karp_search.h"
+#include "search_space.h"
 #include "thesis_search.h"
 
 #include <benchmark/benchmark.h>
