@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "directed_segments.h"
+#include "graph.h"
 #include "required_elements.h"
 
-#include "graph.h"
-
-#include <cstdint>
 #include <vector>
 
 namespace mrc {
-
-enum class Climb : std::uint8_t { rising = 1, falling = 2, along = 3 };  // level chords by rank, and those that the flow runs along
-
-inline int sign(Climb climb) { return climb == Climb::rising ? 1 : climb == Climb::falling ? -1 : 0; }
 
 /// What the arcs need to know of a chord besides its ends.
 struct ChordSite {

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "required_chords.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace mrc {
+namespace {
+
+class RequiredChords {
+  public:
+    RequiredChords(const GraphInput& input, const std::vector<GraphPoint>& points, const std::vector<DirectedSegment>& directed)
+        : surface_(input.surface),
+          patch_(input.patch),
+          input_(input),
+          ambient_(input.ambient),
+          points_(points),
+          directed_(directed) {}
+
+    RequiredElements find() {
+        for (const int v : input_.constraints.required_vertices) elements_.require(place_of(points_, point_of(v)));
+        for (const auto& [a, b] : input_.constraints.required_edges) require_edge(a, b);
+        if (!patch_.closed && input_.options.ends == Ends::edges) require_end_edges();
+        return std::move(elements_);
+    }
+
+    RequiredElements::Span span(const DirectedSegment& d) const {
+        const GraphPoint &tail = points_[d.tail], &head = points_[d.head];
+        return {tail.level, head.level, d.crosses, tail.rank, head.rank, d.segment};
+    }
+
+  private:
+    const Surface& surface_;
+    const Patch& patch_;
+    const GraphInput& input_;
+    const AmbientGraph& ambient_;
+    const std::vector<GraphPoint>& points_;
+    const std::vector<DirectedSegment>& directed_;
+    RequiredElements elements_;
+
+    /// The band's point for a required vertex.
+    int point_of(int vertex) const {
+        const auto found = ambient_.local.find(vertex);
+        if (found != ambient_.local.end()) return ambient_.point_of_vertex[found->second];
+        const char* others = input_.exclusion.refused.empty() ? "" : ", which other contours may keep back";
+        throw InvalidInput("required vertex " + std::to_string(vertex) + " lies outside the band" + others +
+                           ": widen the band or drop the requirement");
+    }
+
+    void require_edge(int a, int b) {
+        const int p = point_of(a), q = point_of(b);
+        const auto h =
+            patch_.mesh.find_halfedge(PatchMesh::VertexHandle(ambient_.local.at(a)), PatchMesh::VertexHandle(ambient_.local.at(b)));
+        const int edge = h.is_valid() ? h.idx() / 2 : -1;
+        if (edge < 0 || !input_.band.edge[edge] || patch_.diagonal[edge] || patch_.border_edge[edge]) {
+            throw InvalidInput("required edge (" + std::to_string(a) + ", " + std::to_string(b) +
+                               ") is no edge inside the band: widen the band or drop the requirement");
+        }
+        elements_.require(place_of(points_, p));
+        elements_.require(place_of(points_, q));
+        std::vector<int> own = segments_of_edge(edge);
+        if (!std::ranges::all_of(own, [&](int s) { return ambient_.segments[s].walkable; })) {
+            throw InvalidInput("required edge (" + std::to_string(a) + ", " + std::to_string(b) +
+                               ") touches another contour or its band: drop the requirement");
+        }
+        for (const DirectedSegment& d : directed_) {
+            if (std::ranges::find(own, d.segment) != own.end()) elements_.require(span(d), own);
+        }
+    }
+
+    std::vector<int> segments_of_edge(int edge) const {
+        const int halfedge = patch_.edge_halfedge(edge);
+        std::vector<int> own;
+        for (std::size_t i = 0; i < ambient_.segments.size(); ++i) {
+            const int h = ambient_.segments[i].halfedge;
+            if (h >= 0 && surface_.edge(h) == surface_.edge(halfedge)) own.push_back(static_cast<int>(i));
+        }
+        return own;
+    }
+
+    /// Open curves with their first and last edge held (4.6). A refined one whose ends are no whole edges holds its end points.
+    void require_end_edges() {
+        const auto& points = input_.given;
+        const auto hold = [&](const SurfacePoint& end, const SurfacePoint& next) {
+            if (!end.is_vertex()) return;
+            const int other = next.is_vertex() ? next.a : next.a == end.a ? next.b : next.b == end.a ? next.a : -1;
+            if (other >= 0 && surface_.real_edge(end.a, other)) require_edge(end.a, other);
+        };
+        hold(points.front(), points[1]);
+        hold(points.back(), points[points.size() - 2]);
+    }
+};
+
+}  // namespace
+
+RequiredElements keep_required_chords(const GraphInput& input, const std::vector<GraphPoint>& points,
+                                      std::vector<DirectedSegment>& directed) {
+    RequiredChords required(input, points, directed);
+    RequiredElements elements = required.find();
+    if (!elements.empty()) std::erase_if(directed, [&](const DirectedSegment& d) { return !elements.allows(required.span(d)); });
+    return elements;
+}
+
+}  // namespace mrc
