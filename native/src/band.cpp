@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "band.h"
 
+#include "band_front.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -48,6 +50,48 @@ class PolygonSides {
     }
 };
 
+/// The order in which polygons compete: of distance, rounded so that equal ones stay equal under rounding; then of position. Gives
+/// the place of each.
+std::vector<int> polygon_ranks(const Patch& patch, const PolygonSides& sides) {
+    double length = 0.0;
+    for (const int h : contour_halfedges(patch)) length += patch.mesh.calc_edge_length(Halfedge(h));
+    using Key = std::tuple<double, double, double, double, int>;
+    std::vector<Key> keys;
+    for (int p = 0; p < patch.polygon_count(); ++p) {
+        double distance = 0.0;
+        PatchMesh::Point center(0.0);
+        for (const int h : sides[p]) {
+            const auto from = patch.mesh.from_vertex_handle(Halfedge(h));
+            distance += patch.distance[from.idx()];
+            center += patch.mesh.point(from);
+        }
+        const auto count = static_cast<double>(sides[p].size());
+        const double quantum = 1e-9 * length * count;
+        keys.emplace_back(std::round(distance / quantum), center[0] / count, center[1] / count, center[2] / count, p);
+    }
+    std::ranges::sort(keys);
+    std::vector<int> ranks(keys.size());
+    for (std::size_t i = 0; i < keys.size(); ++i) ranks[std::get<4>(keys[i])] = static_cast<int>(i);
+    return ranks;
+}
+
+/// Marks the patch edges that are a barrier, or a wall of the exclusion.
+std::vector<char> barrier_edges(const Patch& patch, const Constraints& constraints, const Exclusion& exclusion) {
+    std::vector<char> barrier = exclusion.wall;
+    barrier.resize(patch.mesh.n_edges(), 0);
+    if (constraints.barriers.empty()) return barrier;
+    std::unordered_map<int, int> local;
+    for (std::size_t v = 0; v < patch.vertex.size(); ++v) local.emplace(patch.vertex[v], static_cast<int>(v));
+    for (const auto& [a, b] : constraints.barriers) {
+        const auto p = local.find(a), q = local.find(b);
+        if (p == local.end() || q == local.end()) continue;
+        const auto h = patch.mesh.find_halfedge(PatchMesh::VertexHandle(p->second), PatchMesh::VertexHandle(q->second));
+        if (h.is_valid()) barrier[h.idx() / 2] = 1;
+    }
+    return barrier;
+}
+
+/// Dilates the band round by round, and closes its disk beyond the ends of an open curve.
 class Grower {
   public:
     Grower(const Patch& patch, double farthest, const Constraints& constraints, const Exclusion& exclusion)
@@ -56,20 +100,14 @@ class Grower {
           sides_(patch),
           farthest_(farthest),
           refused_(exclusion.refused),
-          barrier_(exclusion.wall) {
+          front_(patch, barrier_edges(patch, constraints, exclusion)),
+          rank_(polygon_ranks(patch, sides_)) {
         band_.face.assign(mesh_.n_faces(), 0);
         band_.side.assign(mesh_.n_vertices(), Side::outside);
         band_.round.assign(mesh_.n_vertices(), -1);
-        front_.assign(mesh_.n_halfedges(), Side::outside);
         polygon_in_.assign(patch.polygon_count(), 0);
-        order_polygons();
+        refused_.resize(patch.polygon_count(), 0);
         for (const int v : patch.contour) admit(v, Side::contour, 0);
-        mark_barriers(constraints);
-        for (std::size_t i = 0; i < chain_length(); ++i) {
-            const Halfedge h = contour_halfedge(i);
-            front_[h.idx()] = Side::left;
-            front_[mesh_.opposite_halfedge_handle(h).idx()] = Side::right;
-        }
         band_.left.push_back(patch.contour);
         band_.right.push_back(patch.contour);
     }
@@ -78,8 +116,8 @@ class Grower {
         for (int round = 1; !width || round <= *width; ++round) {
             if (!grow_round(round)) break;
             band_.rounds = round;
-            band_.left.push_back(boundary(Side::left, band_.left.back()));
-            band_.right.push_back(boundary(Side::right, band_.right.back()));
+            band_.left.push_back(front_.boundary(Side::left, band_.left.back()));
+            band_.right.push_back(front_.boundary(Side::right, band_.right.back()));
         }
         if (!patch_.closed) close_ends();
         mark_edges();
@@ -88,50 +126,18 @@ class Grower {
     }
 
   private:
-    struct Chain {
-        int first = -1, length = 0;  // in the polygon's sides
-        Side side = Side::outside;
-        bool mixed = false;  // has edges of both sides' fronts
-    };
-
     const Patch& patch_;
     const PatchMesh& mesh_;
     PolygonSides sides_;
     double farthest_;            // how far from the contour the third and later rounds may reach
     std::vector<char> refused_;  // of each polygon
-    std::vector<char> barrier_;  // of each patch edge: a barrier, or a wall of the exclusion
     Band band_;
-    std::vector<Side> front_;  // half-edges of outer polygons whose other side is in the band
+    BandFront front_;
     std::vector<char> polygon_in_;
     std::vector<int> rank_;        // of each polygon in the order of distance
     std::vector<int> candidates_;  // polygons that might enter in the last round
 
-    std::size_t chain_length() const { return patch_.contour.size() - (patch_.closed ? 0 : 1); }
-    bool is_front(int h) const { return front_[h] != Side::outside && !barrier_[h / 2]; }
-    /// The band lies on the other side of a barrier: both sides of one never enter.
-    bool is_blocked(int h) const { return front_[h] != Side::outside && barrier_[h / 2]; }
-
-    void mark_barriers(const Constraints& constraints) {
-        barrier_.resize(mesh_.n_edges(), 0);
-        refused_.resize(patch_.polygon_count(), 0);
-        if (constraints.barriers.empty()) return;
-        std::unordered_map<int, int> local;
-        for (std::size_t v = 0; v < patch_.vertex.size(); ++v) local.emplace(patch_.vertex[v], static_cast<int>(v));
-        for (const auto& [a, b] : constraints.barriers) {
-            const auto p = local.find(a), q = local.find(b);
-            if (p == local.end() || q == local.end()) continue;
-            const auto h = mesh_.find_halfedge(PatchMesh::VertexHandle(p->second), PatchMesh::VertexHandle(q->second));
-            if (h.is_valid()) barrier_[h.idx() / 2] = 1;
-        }
-    }
-
-    Halfedge contour_halfedge(std::size_t i) const {
-        const int a = patch_.contour[i], b = patch_.contour[(i + 1) % patch_.contour.size()];
-        return mesh_.find_halfedge(PatchMesh::VertexHandle(a), PatchMesh::VertexHandle(b));
-    }
     int from(int h) const { return mesh_.from_vertex_handle(Halfedge(h)).idx(); }
-    int to(int h) const { return mesh_.to_vertex_handle(Halfedge(h)).idx(); }
-    static int opposite(int h) { return h ^ 1; }
     int polygon_of(int h) const {
         const auto face = mesh_.face_handle(Halfedge(h));
         return face.is_valid() ? patch_.polygon[face.idx()] : -1;
@@ -143,63 +149,14 @@ class Grower {
         band_.round[vertex] = round;
     }
 
-    /// Polygons compete in the order of distance, rounded so that equal ones stay equal under rounding; then of position.
-    void order_polygons() {
-        double length = 0.0;
-        for (std::size_t i = 0; i < chain_length(); ++i) length += mesh_.calc_edge_length(contour_halfedge(i));
-        using Key = std::tuple<double, double, double, double, int>;
-        std::vector<Key> keys;
-        for (int p = 0; p < patch_.polygon_count(); ++p) {
-            double distance = 0.0;
-            PatchMesh::Point center(0.0);
-            for (const int h : sides_[p]) {
-                distance += patch_.distance[from(h)];
-                center += mesh_.point(mesh_.from_vertex_handle(Halfedge(h)));
-            }
-            const auto count = static_cast<double>(sides_[p].size());
-            const double quantum = 1e-9 * length * count;
-            keys.emplace_back(std::round(distance / quantum), center[0] / count, center[1] / count, center[2] / count, p);
-        }
-        std::ranges::sort(keys);
-        rank_.resize(keys.size());
-        for (std::size_t i = 0; i < keys.size(); ++i) rank_[std::get<4>(keys[i])] = static_cast<int>(i);
-    }
-
-    /// The one connected chain of front edges in which a polygon meets the band; length 0 where it may not enter.
-    Chain meeting(int polygon) const {
-        const auto sides = sides_[polygon];
-        const int count = static_cast<int>(sides.size());
-        Chain chain;
-        int fronts = 0, vertices = 0;
-        for (int i = 0; i < count; ++i) {
-            if (is_blocked(sides[i])) return {};
-            vertices += inside(from(sides[i]));
-            if (!is_front(sides[i])) continue;
-            ++fronts;
-            const bool starts = !is_front(sides[(i + count - 1) % count]);
-            if (!starts) continue;
-            if (chain.first >= 0) return {};
-            chain = {i, 0, front_[sides[i]], false};
-        }
-        // The chain's own vertices and no others are in the band: so it stays an annulus, and both sides apart.
-        if (chain.first < 0 || fronts == count || vertices != fronts + 1) return {};
-        for (int i = 0; i < fronts; ++i) chain.mixed |= front_[sides[(chain.first + i) % count]] != chain.side;
-        chain.length = fronts;
-        return chain;
-    }
-
     void enter(int polygon, const Chain& chain, int round) {
         const auto sides = sides_[polygon];
         const int count = static_cast<int>(sides.size());
-        for (int i = 0; i < count; ++i) {
-            const int h = sides[(chain.first + i) % count];
-            if (i < chain.length) {
-                front_[h] = Side::outside;
-                continue;
-            }
-            front_[opposite(h)] = chain.side;
-            if (!inside(from(h))) admit(from(h), chain.side, round);
+        for (int i = chain.length; i < count; ++i) {
+            const int vertex = from(sides[(chain.first + i) % count]);
+            if (!inside(vertex)) admit(vertex, chain.side, round);
         }
+        front_.pass(sides, chain);
         polygon_in_[polygon] = 1;
         band_.polygons.push_back(polygon);
         for (int f = patch_.first_face[polygon]; f < patch_.first_face[polygon + 1]; ++f) band_.face[f] = 1;
@@ -230,7 +187,7 @@ class Grower {
     void leave_to_others(std::vector<int>& polygons) {
         std::erase_if(polygons, [&](int polygon) {
             if (refused_[polygon] == 0) return false;
-            if (refused_[polygon] == 1 && std::ranges::any_of(sides_[polygon], [&](int h) { return is_front(h); })) {
+            if (refused_[polygon] == 1 && std::ranges::any_of(sides_[polygon], [&](int h) { return front_.holds(h); })) {
                 refused_[polygon] = 2;  // once is enough
                 band_.refused.push_back(polygon);
             }
@@ -254,12 +211,12 @@ class Grower {
             const int polygon = queue.top().second;
             queue.pop();
             if (polygon_in_[polygon]) continue;
-            const Chain chain = meeting(polygon);
+            const Chain chain = front_.meeting(sides_[polygon], band_.side);
             if (chain.length == 0 || chain.mixed) continue;
             enter(polygon, chain, round);
             grown = true;
             for (const int h : sides_[polygon]) {
-                const int neighbor = polygon_of(opposite(h));
+                const int neighbor = polygon_of(h ^ 1);
                 if (neighbor >= 0 && eligible[neighbor] && !polygon_in_[neighbor]) queue.emplace(rank_[neighbor], neighbor);
             }
         }
@@ -274,7 +231,7 @@ class Grower {
             grown = false;
             for (const int polygon : candidates_) {
                 if (polygon_in_[polygon]) continue;
-                const Chain chain = meeting(polygon);
+                const Chain chain = front_.meeting(sides_[polygon], band_.side);
                 if (chain.length == 0) continue;
                 enter(polygon, chain, earliest_round(polygon) + 1);
                 ++band_.end_polygons;
@@ -293,46 +250,11 @@ class Grower {
 
     void mark_edges() {
         band_.edge.assign(mesh_.n_edges(), 0);
-        for (std::size_t i = 0; i < chain_length(); ++i) band_.edge[contour_halfedge(i).idx() / 2] = 1;
+        for (const int h : contour_halfedges(patch_)) band_.edge[h / 2] = 1;
         for (std::size_t f = 0; f < band_.face.size(); ++f) {
             if (!band_.face[f]) continue;
             for (const auto e : mesh_.fe_range(PatchMesh::FaceHandle(static_cast<int>(f)))) band_.edge[e.idx()] = 1;
         }
-    }
-
-    /// Walks the front of one side. Left fronts run along with the contour, right ones against it; those of an open curve begin and
-    /// end at its ends, which no polygon of one side alone can enclose.
-    std::vector<int> boundary(Side side, const std::vector<int>& last) const {
-        const auto front_from = [&](int vertex) {
-            for (const auto h : mesh_.voh_range(PatchMesh::VertexHandle(vertex))) {
-                if (front_[h.idx()] == side) return h.idx();
-            }
-            return -1;
-        };
-        int start = -1;
-        if (!patch_.closed) start = side == Side::left ? patch_.contour.front() : patch_.contour.back();
-        for (const int v : last) {
-            if (start >= 0) break;
-            if (front_from(v) >= 0) start = v;
-        }
-        if (start < 0) start = first_new_vertex(side);
-        if (start < 0) return {};
-        std::vector<int> curve{start};
-        for (int h = front_from(start); h >= 0 && to(h) != start; h = front_from(to(h))) curve.push_back(to(h));
-        if (side == Side::right) std::reverse(curve.begin() + (patch_.closed ? 1 : 0), curve.end());
-        return curve;
-    }
-
-    /// Where a round left the last boundary altogether: the new boundary's vertex nearest to the contour's first one.
-    int first_new_vertex(Side side) const {
-        const auto origin = mesh_.point(PatchMesh::VertexHandle(patch_.contour[0]));
-        std::pair<double, int> best{std::numeric_limits<double>::infinity(), -1};
-        for (std::size_t h = 0; h < front_.size(); ++h) {
-            if (front_[h] != side) continue;
-            const int v = from(static_cast<int>(h));
-            best = std::min(best, {(mesh_.point(PatchMesh::VertexHandle(v)) - origin).norm(), v});
-        }
-        return best.second;
     }
 };
 
