@@ -6,6 +6,7 @@
 #include "contour_scales.h"
 #include "curvature_field.h"
 #include "distances.h"
+#include "obstacles.h"
 #include "patch.h"
 
 #include <Eigen/Eigenvalues>

@@ -48,9 +48,6 @@ struct Patch {
 /// one side at least, and not on the border; it names the elements.
 Contour checked_contour(const Surface& surface, const Contour& contour);
 
-/// What keeps a contour from running along the real edge ab, in words; empty: nothing. One side that a band may enter is enough.
-std::string obstacle(const Surface& surface, int a, int b);
-
 /// True where a refined contour has a simple contour along mesh edges beside it, from which a band can grow.
 bool has_neighbor_along_edges(const Surface& surface, const Contour& contour);
 

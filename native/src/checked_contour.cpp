@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "obstacles.h"
+#include "patch.h"
+#include "surface_point.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace mrc {
+namespace {
+
+std::string edge_name(int a, int b) { return "(" + std::to_string(a) + ", " + std::to_string(b) + ")"; }
+
+std::string point_name(const SurfacePoint& p) {
+    return p.is_vertex() ? "vertex " + std::to_string(p.a)
+                         : "the point at " + std::to_string(p.t) + " of edge " + edge_name(p.a, p.b);
+}
+
+/// A half-edge with these ends, real or diagonal, or -1.
+int any_halfedge(const Surface& surface, int a, int b) {
+    for (const int h : surface.outgoing(a)) {
+        if (surface.to(h) == b) return h;
+    }
+    return -1;
+}
+
+void check_point(const Surface& surface, const SurfacePoint& p) {
+    for (const int v : {p.a, p.b}) {
+        if (v < 0 || v >= surface.vertex_count()) {
+            throw InvalidInput("contour vertex " + std::to_string(v) + " is out of range: the surface has " +
+                               std::to_string(surface.vertex_count()) + " vertices");
+        }
+    }
+    if (!(p.t >= 0.0 && p.t <= 1.0)) {
+        throw InvalidInput("the contour's point on edge " + edge_name(p.a, p.b) + " has parameter " + std::to_string(p.t) +
+                           ": it must be from 0 to 1");
+    }
+    if (!p.is_vertex() && any_halfedge(surface, p.a, p.b) < 0 && any_halfedge(surface, p.b, p.a) < 0) {
+        throw InvalidInput("the contour's vertices " + std::to_string(p.a) + " and " + std::to_string(p.b) +
+                           " are not joined by an edge");
+    }
+}
+
+/// The order of points on edges, whichever way these are written.
+std::tuple<int, int, long long> place_key(const SurfacePoint& p) {
+    return p.a <= p.b ? std::tuple(p.a, p.b, std::llround(p.t * 1e12)) : std::tuple(p.b, p.a, std::llround((1.0 - p.t) * 1e12));
+}
+
+void check_distinct(const Contour& contour) {
+    const std::size_t least = contour.closed ? 3 : 2;
+    if (contour.points.size() < least) {
+        throw InvalidInput("a contour of " + std::to_string(contour.points.size()) + " vertices: " +
+                           (contour.closed ? "a closed" : "an open") + " contour needs at least " + std::to_string(least));
+    }
+    std::set<std::tuple<int, int, long long>> seen;
+    for (const SurfacePoint& p : contour.points) {
+        if (!seen.insert(place_key(p)).second) {
+            throw InvalidInput("the contour passes " + point_name(p) +
+                               " twice: give a contour that does not touch itself (a closed one does not repeat its first vertex)");
+        }
+    }
+}
+
+/// Where on a triangle's border a point lies: side and share of it, as one number from 0 to 3.
+double border_place(const Surface& surface, int triangle, const SurfacePoint& p) {
+    for (int corner = 0; corner < 3; ++corner) {
+        const int from = surface.triangle(triangle)[corner], to = surface.triangle(triangle)[(corner + 1) % 3];
+        if (p.is_vertex() && p.a == from) return corner;
+        if (!p.is_vertex() && p.a == from && p.b == to) return corner + p.t;
+        if (!p.is_vertex() && p.b == from && p.a == to) return corner + 1.0 - p.t;
+    }
+    return -1.0;
+}
+
+struct Crossing {
+    int triangle;
+    double low, high;  // places on the triangle's border
+    std::size_t segment;
+};
+
+/// Segments inside one triangle cross where their ends alternate on its border.
+void check_crossings(const Contour& contour, std::vector<Crossing>& crossings) {
+    std::ranges::sort(crossings, {}, &Crossing::triangle);
+    for (auto first = crossings.begin(); first != crossings.end();) {
+        const auto end = std::find_if(first, crossings.end(), [&](const Crossing& c) { return c.triangle != first->triangle; });
+        for (auto i = first; i != end; ++i) {
+            for (auto j = first; j != end; ++j) {
+                if (i->low < j->low && j->low < i->high && i->high < j->high) {
+                    throw InvalidInput("the contour crosses itself behind " + point_name(contour.points[i->segment]) +
+                                       " and behind " + point_name(contour.points[j->segment]) +
+                                       ": give a contour that does not touch itself");
+                }
+            }
+        }
+        first = end;
+    }
+}
+
+bool on_edge(const Surface& surface, int halfedge, const SurfacePoint& p) {
+    const int a = surface.from(halfedge), b = surface.to(halfedge);
+    return (p.a == a || p.a == b) && (p.b == a || p.b == b);
+}
+
+void add_crossing(const Surface& surface, int triangle, const SurfacePoint& p, const SurfacePoint& q, std::size_t index,
+                  std::vector<Crossing>& crossings) {
+    const double from = border_place(surface, triangle, p), to = border_place(surface, triangle, q);
+    crossings.push_back({triangle, std::min(from, to), std::max(from, to), index});
+}
+
+void check_edge(const Surface& surface, int a, int b) {
+    if (!surface.real_edge(a, b)) {
+        throw InvalidInput("the contour's vertices " + std::to_string(a) + " and " + std::to_string(b) +
+                           " are not joined by an edge");
+    }
+    const std::string why = obstacle(surface, a, b);
+    if (!why.empty()) throw InvalidInput("the contour's edge " + edge_name(a, b) + " lies " + why + ": move the contour off it");
+}
+
+void check_segment(const Surface& surface, const SurfacePoint& p, const SurfacePoint& q, std::size_t index,
+                   std::vector<Crossing>& crossings) {
+    if (p.is_vertex() && q.is_vertex()) check_edge(surface, p.a, q.a);
+    const int triangle = triangle_of_segment(surface, p, q);
+    if (triangle < 0) {
+        throw InvalidInput("the contour leaves the surface between " + point_name(p) + " and " + point_name(q) +
+                           ": consecutive points must lie on one triangle");
+    }
+    const SharedEdge edge(p, q);
+    const bool along = edge.a >= 0 && surface.real_edge(edge.a, edge.b);
+    const std::string why = along ? obstacle(surface, edge.a, edge.b) : obstacle(surface, 3 * triangle);
+    if (!why.empty()) {
+        throw InvalidInput("the contour between " + point_name(p) + " and " + point_name(q) + " lies " + why +
+                           ": move the contour off it");
+    }
+    // A segment along an edge lies on the border of both its triangles.
+    const int start = 3 * triangle;
+    add_crossing(surface, triangle, p, q, index, crossings);
+    for (int h = start; h < start + 3; ++h) {
+        const int twin = surface.twin(h);
+        if (twin >= 0 && on_edge(surface, h, p) && on_edge(surface, h, q)) add_crossing(surface, twin / 3, p, q, index, crossings);
+    }
+}
+
+}  // namespace
+
+Contour checked_contour(const Surface& surface, const Contour& contour) {
+    for (const SurfacePoint& p : contour.points) check_point(surface, p);
+    Contour checked = normalized(contour);
+    check_distinct(checked);
+    std::vector<Crossing> crossings;
+    const std::size_t count = checked.points.size();
+    for (std::size_t i = 0; i + (checked.closed ? 0 : 1) < count; ++i) {
+        check_segment(surface, checked.points[i], checked.points[(i + 1) % count], i, crossings);
+    }
+    check_crossings(checked, crossings);
+    return checked;
+}
+
+}  // namespace mrc

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "obstacles.h"
+
+#include <algorithm>
+
+namespace mrc {
+namespace {
+
+/// A diagonal that joins the same vertices as another edge would be one edge with it in the patch's mesh.
+bool has_shared_diagonal(const Surface& surface, int face) {
+    const int begin = 3 * surface.first_triangle(face), end = 3 * surface.first_triangle(face + 1);
+    for (int h = begin; h < end; ++h) {
+        if (!surface.diagonal(h)) continue;
+        const auto same = [&](int other) { return surface.to(other) == surface.to(h); };
+        if (std::ranges::count_if(surface.outgoing(surface.from(h)), same) > 1) return true;
+        if (surface.real_edge(surface.from(h), surface.to(h))) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+bool usable_face(const Surface& surface, int face) {
+    if (surface.hidden(face)) return false;
+    const auto vertices = surface.face(face);
+    if (!std::ranges::all_of(vertices, [&](int v) { return surface.regular(v); })) return false;
+    return vertices.size() == 3 || !has_shared_diagonal(surface, face);
+}
+
+std::string obstacle(const Surface& surface, int halfedge) {
+    if (halfedge == Surface::border) return "on the border of the mesh";
+    if (halfedge == Surface::irregular) return "on an edge of more than two faces, or of two whose normals disagree";
+    const int face = surface.halfedge_face(halfedge);
+    if (surface.hidden(face)) return "beside the hidden face " + std::to_string(face);
+    for (const int v : surface.face(face)) {
+        if (!surface.regular(v))
+            return "beside vertex " + std::to_string(v) + ", which is non-manifold or has faces whose normals disagree";
+    }
+    if (!usable_face(surface, face))
+        return "beside face " + std::to_string(face) + ", two opposite corners of which another edge or face joins too";
+    return {};
+}
+
+std::string obstacle(const Surface& surface, int a, int b) {
+    const int forward = surface.find_halfedge(a, b), backward = surface.find_halfedge(b, a);
+    const int halfedge = forward >= 0 ? forward : backward, twin = surface.twin(halfedge);
+    if (twin < 0) return obstacle(surface, twin);
+    const std::string left = obstacle(surface, halfedge), right = obstacle(surface, twin);
+    return left.empty() || right.empty() ? std::string() : left;
+}
+
+}  // namespace mrc

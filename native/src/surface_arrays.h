@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <mrc/surface.h>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace mrc {
+
+/// Gathers what is wrong, says the first few in full and how many more there are.
+class Complaints {
+  public:
+    template <class Text>
+    void add(Text&& text) {
+        if (++count_ > shown) return;
+        if (!message_.empty()) message_ += "; ";
+        message_ += text();
+    }
+
+    void raise() const {
+        if (count_ == 0) return;
+        const std::string more = count_ > shown ? "; and " + std::to_string(count_ - shown) + " more" : "";
+        throw InvalidInput(message_ + more);
+    }
+
+  private:
+    static constexpr size_t shown = 3;
+    size_t count_ = 0;
+    std::string message_;
+};
+
+inline std::string element_name(const char* kind, int64_t id) { return std::string(kind) + " " + std::to_string(id); }
+
+// Each copies one of the arrays that a surface is made from. @throws InvalidInput, naming the first few elements that are wrong.
+
+void require_size(size_t size, const char* what);
+std::vector<Vec3> copy_positions(std::span<const double> values);
+std::vector<int> copy_offsets(std::span<const int32_t> offsets, size_t corner_count);
+void check_faces(std::span<const int> face_offsets, std::span<const int> face_vertices, int vertex_count);
+std::vector<uint8_t> mark_hidden(std::span<const int32_t> hidden_faces, int face_count);
+
+}  // namespace mrc
