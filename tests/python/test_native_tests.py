@@ -8,11 +8,29 @@ STAGES = {path.stem for path in (ROOT / "native/src").iterdir() if path.suffix i
 TESTS = {path.name.removesuffix("_test.cpp") for path in (ROOT / "tests/native").glob("*_test.cpp")}
 # Files that are a part of a stage, or have no behavior of their own, with the test file that covers them.
 PARTS = {
+    "band_front": "band",
     "beat": "progress_monitor",
+    "checked_contour": "patch",
     "checked_input": "measure",
+    "directed_segments": "graph",
+    "exclude_segments": "graph",
     "exclusion": "partition",
+    "graph_input": "graph",
+    "incumbent": "ratio",
+    "label_search": "ratio",
+    "lens": "ratio",
+    "objective": "ratio",
+    "obstacles": "patch",
+    "open_ends": "graph",
+    "relaxation": "ratio",
+    "required_chords": "graph",
     "search_space": "line_graph",
+    "start_line": "strip_flow",
+    "strip": "strip_flow",
+    "strip_gates": "strip_flow",
     "strips": "strip_flow",
+    "surface_arrays": "surface",
+    "topological_order": "graph",
     "types": "surface_point",
 }
 
