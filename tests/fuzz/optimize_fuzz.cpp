@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Contours of all kinds on spoilt meshes, with any options: a valid result, or an error.
 #include "checks.h"
-#include "made_mesh.h"
+#include "generated_mesh.h"
 
 #include <mrc/close_contour.h>
 

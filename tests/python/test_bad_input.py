@@ -5,7 +5,7 @@ import meshes
 import mrcontour as mrc
 import numpy as np
 import pytest
-from band_checks import check_search_space, pairs
+from search_space_checks import check_search_space, pairs
 from brute_force import same_cycle
 from conftest import surface_of
 from hypothesis import given, settings

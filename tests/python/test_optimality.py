@@ -8,7 +8,7 @@ import meshes
 import mrcontour as mrc
 import numpy as np
 import pytest
-from band_checks import check_search_space
+from search_space_checks import check_search_space
 from brute_force import BruteForce
 from conftest import surface_of
 

@@ -21,7 +21,7 @@ from rough_contours import LONGEST, RoughContours
 if not os.environ.get("MRC_LONG"):
     pytest.skip("only with tests/run --full, which installs the meshes and their reader", allow_module_level=True)
 
-import demo_meshes  # noqa: E402
+import cgal_meshes  # noqa: E402
 
 pytestmark = [pytest.mark.long, pytest.mark.slow]
 
@@ -109,7 +109,7 @@ class Trial:
         self.positions, self.rng, self.counts = positions, rng, counts
         surface = tried(counts, lambda: mrc.Surface(positions, None, triangles))
         counts["surfaces refused"] += surface is None
-        self.triangles = triangles if surface else demo_meshes.proper(triangles)
+        self.triangles = triangles if surface else cgal_meshes.proper(triangles)
         share = rng.choice([0.0, 0.0, 0.01])
         self.hidden = np.flatnonzero(rng.random(len(self.triangles)) < share).astype(np.int32)
         self.surface = mrc.Surface(positions, None, self.triangles, hidden_faces=self.hidden)
@@ -188,11 +188,11 @@ class Trial:
             self.counts[result.status] += 1
 
 
-@pytest.mark.parametrize("name", sorted(demo_meshes.contents()))
+@pytest.mark.parametrize("name", sorted(cgal_meshes.contents()))
 def test_each_mesh(name):
-    positions, triangles = demo_meshes.read(name)
+    positions, triangles = cgal_meshes.read(name)
     counts = Counter()
-    for number, way in enumerate(demo_meshes.WAYS):
+    for number, way in enumerate(cgal_meshes.WAYS):
         rng = np.random.default_rng([number, len(positions), len(triangles)])
         if len(triangles):
             trial = Trial(*way(positions, triangles, rng), rng, counts)

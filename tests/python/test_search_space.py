@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The laws of bands, flows and graphs (band_checks.py) on bands of many shapes."""
+"""The laws of bands, flows and graphs (search_space_checks.py) on bands of many shapes."""
 
 import meshes
 import mrcontour as mrc
 import numpy as np
 import pytest
-from band_checks import check_search_space, pairs
+from search_space_checks import check_search_space, pairs
 from conftest import realistic_contours, surface_of
 
 FLOWS = ["gates", "arc_length", "harmonic"]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "made_mesh.h"
+#include "generated_mesh.h"
 
 #include <algorithm>
 #include <array>
