@@ -21,7 +21,7 @@ def traces(profile):
     return [str(path) for path in files if not str(path).startswith(own) or "contour" in path.name]
 
 
-def test_installed_disabled_enabled_restarted_and_removed_without_a_trace(blender, packages, version, tmp_path):
+def test_package_installs_toggles_restarts_and_uninstalls_without_a_trace(blender, packages, version, tmp_path):
     installed, disabled, enabled = blender.take(tmp_path, packages[blender.kind], "disable", "enable")
     assert works(installed, version)
     assert installed["library_file"].startswith(str(tmp_path))
@@ -47,7 +47,7 @@ def aged(package, version):
     return content.getvalue()
 
 
-def test_an_upgrade_while_the_old_library_is_loaded_asks_for_a_restart(blender, packages, version, tmp_path):
+def test_upgrade_while_the_old_library_is_loaded_asks_for_a_restart(blender, packages, version, tmp_path):
     old = tmp_path / packages[blender.kind].name.replace(version, OLD)
     old.write_bytes(aged(packages[blender.kind], version))
     profile = tmp_path / "profile"
@@ -73,7 +73,7 @@ def source(tmp_path):
     return package
 
 
-def test_source_installed_by_mistake_says_what_to_do_and_the_package_mends_it(
+def test_source_installed_by_mistake_says_what_to_do_and_the_package_fixes_it(
     blender, packages, version, source, tmp_path
 ):
     mistaken, mended = blender.take(tmp_path / "profile", source, packages[blender.kind])

@@ -39,7 +39,7 @@ def rest(found, patterns):
     return found
 
 
-def test_the_wheel_holds_module_library_stubs_and_licenses(packages, version):
+def test_wheel_contains_module_library_stubs_and_licenses(packages, version):
     info = f"mrcontour-{version}.dist-info"
     wanted = [MODULE, LIBRARY, "mrcontour-stubs/__init__.pyi", *(f"{info}/licenses/{name}" for name in LICENCES)]
     own = {f"{info}/{name}" for name in ("METADATA", "WHEEL", "RECORD", "sboms/auditwheel.cdx.json")}
@@ -47,25 +47,25 @@ def test_the_wheel_holds_module_library_stubs_and_licenses(packages, version):
     assert "manylinux" in packages["wheel"].name
 
 
-def test_the_wheel_shows_its_own_page(packages, version):
+def test_wheel_metadata_contains_its_page(packages, version):
     metadata = contents(packages["wheel"])[f"mrcontour-{version}.dist-info/METADATA"].decode()
     assert "Description-Content-Type: text/markdown" in metadata
     assert (ROOT / "native" / "python" / "README.md").read_text(encoding="utf-8").strip() in metadata
 
 
-def test_the_extension_holds_the_python_the_manifest_and_the_wheel(packages):
+def test_extension_contains_sources_manifest_and_wheel(packages):
     wheel = f"wheels/{packages['wheel'].name}"
     assert set(names(packages["extension"])) == SOURCES | {"blender_manifest.toml", wheel}
     assert contents(packages["extension"])[wheel] == packages["wheel"].read_bytes()
 
 
-def test_the_legacy_add_on_holds_the_python_the_library_and_the_licenses(packages):
+def test_legacy_add_on_contains_sources_libraries_and_licenses(packages):
     found = names(packages["legacy"])
     assert all(name.startswith("minimum_ratio_contours/") for name in found)
     assert rest([name.partition("/")[2] for name in found], [MODULE, LIBRARY]) == SOURCES | LICENCES
 
 
-def test_the_manifest_asks_for_no_permission_and_says_what_the_wheel_is_for(packages, version):
+def test_manifest_requests_no_permissions_and_declares_its_platform(packages, version):
     found = manifest(packages["extension"])
     assert "permissions" not in found
     assert (found["version"], found["wheels"]) == (version, [f"./wheels/{packages['wheel'].name}"])
@@ -82,18 +82,18 @@ def test_versions_agree_everywhere(packages, version):
     assert all(version in package.name for package in packages.values())
 
 
-def test_tools_of_all_releases_accept_the_extension_and_build_the_same(extension_blender, packages, tmp_path):
+def test_extension_tools_of_all_releases_accept_and_reproduce_the_extension(extension_blender, packages, tmp_path):
     validate = [sys.executable, extension_blender.tool, "validate", packages["extension"]]
     subprocess.run(validate, check=True, capture_output=True)
     built = maker.build_extension(packages["wheel"], tmp_path, extension_blender.tool)
     assert contents(built) == contents(packages["extension"])
 
 
-def test_the_same_wheel_gives_the_same_legacy_add_on(packages, tmp_path):
+def test_legacy_add_on_is_reproducible(packages, tmp_path):
     assert maker.build_legacy([packages["wheel"]], tmp_path).read_bytes() == packages["legacy"].read_bytes()
 
 
-def test_the_library_comes_from_the_package_alone(packages, tmp_path):
+def test_library_is_loaded_from_the_package_only(packages, tmp_path):
     with ZipFile(packages["legacy"]) as content:
         content.extractall(tmp_path)
     folder = tmp_path / "minimum_ratio_contours"
@@ -102,7 +102,7 @@ def test_the_library_comes_from_the_package_alone(packages, tmp_path):
     assert loaded.strip().startswith(str(folder / "mrcontour.libs"))
 
 
-def test_no_module_stays_behind(packages):
+def test_every_module_is_packaged(packages):
     """A package that lacks one fails only where that module is first imported."""
     assert {"__init__.py", "core/search.py", "mesh/outputs.py", "ui/operators.py"} <= SOURCES
     for kind, folder in (("extension", ""), ("legacy", "minimum_ratio_contours/")):
@@ -127,7 +127,7 @@ def wheel_of(folder, python, platform):
         ("cp313", "manylinux_2_27_x86_64.manylinux_2_28_x86_64", "linux-x64", ("5.1.0", None)),
     ],
 )
-def test_extensions_of_other_systems(blender_tool, tmp_path, python, platform, wanted, releases):
+def test_extensions_for_other_systems(blender_tool, tmp_path, python, platform, wanted, releases):
     built = maker.build_extension(wheel_of(tmp_path, python, platform), tmp_path, blender_tool)
     found = manifest(built)
     assert built.name.endswith(f"-extension-{wanted}-{python}.zip")
@@ -135,7 +135,7 @@ def test_extensions_of_other_systems(blender_tool, tmp_path, python, platform, w
     assert (found["blender_version_min"], found.get("blender_version_max")) == releases
 
 
-def test_a_legacy_add_on_for_two_pythons(tmp_path):
+def test_legacy_add_on_for_two_pythons(tmp_path):
     wheels = [wheel_of(tmp_path, python, "win_amd64") for python in ("cp310", "cp311")]
     built = maker.build_legacy(wheels, tmp_path)
     assert built.name.endswith("-legacy-windows-x64-cp310-cp311.zip")

@@ -50,7 +50,7 @@ def offenses(text):
 
 
 @pytest.mark.parametrize("path", SOURCES, ids=lambda path: path.stem)
-def test_only_harmless_modules_and_calls(path):
+def test_add_on_uses_only_harmless_modules_and_calls(path):
     assert offenses(path.read_text(encoding="utf-8")) == []
 
 
@@ -61,7 +61,7 @@ NOTICED += ["bpy.ops.extensions.package_install", "bpy.ops.text.run_script", "pa
 HARMLESS_CALLS = ["seams.write", "importlib.import_module", "self.execute", "parts.append", "old.touches", "re.compile"]
 
 
-def test_what_would_be_noticed():
+def test_forbidden_modules_and_calls_are_detected():
     assert offenses("import socket, pickle\nfrom urllib.request import urlopen") == ["pickle", "socket", "urllib"]
     assert offenses("\n".join(f"{call}('x')" for call in NOTICED + HARMLESS_CALLS)) == sorted(NOTICED)
     assert not HARMLESS - sys.stdlib_module_names

@@ -54,11 +54,11 @@ version: str = mrc.__version__
 """
 
 
-def test_right_uses_have_no_type_errors(python, tmp_path):
+def test_correct_code_has_no_type_errors(python, tmp_path):
     assert "Success" in checked(python, tmp_path, example() + RIGHT)
 
 
-def test_mistakes_are_found_where_they_are(python, tmp_path):
+def test_type_errors_are_found_at_their_lines(python, tmp_path):
     first = 1 + example().count("\n")
     found = checked(python, tmp_path, example() + "\n".join(MISTAKES)).splitlines()
     for number, wanted in enumerate(MISTAKES.values(), first):
@@ -67,6 +67,6 @@ def test_mistakes_are_found_where_they_are(python, tmp_path):
     assert wrong == set(range(first, first + len(MISTAKES)))
 
 
-def test_the_example_runs_with_the_wheel(python, tmp_path):
+def test_example_runs_with_the_wheel(python, tmp_path):
     run = subprocess.run([python, "-c", example()], capture_output=True, text=True, cwd=tmp_path)
     assert run.stdout.startswith("improved"), run.stderr

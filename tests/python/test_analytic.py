@@ -34,7 +34,7 @@ def optimize(mesh, contour, **options):
     return mrc.optimize(surface_of(mesh), contour, options=mrc.Options(flow="harmonic", **options))
 
 
-def test_waist_of_a_hyperboloid():
+def test_finds_the_waist_of_a_hyperboloid():
     """x^2 + y^2 = 1 + z^2: within an edge length of the waist, and closer as edges shrink and k grows."""
     away = []
     for edge, k in ((0.5, 1), (0.25, 2), (0.125, 3)):
@@ -80,7 +80,7 @@ def search(profile, edge, rng, **options):
 @pytest.mark.slow
 @pytest.mark.parametrize("k", [0, 1, 3])
 @pytest.mark.parametrize("seed", range(8))
-def test_most_concave_parallel_not_the_thinnest(seed, k):
+def test_finds_the_most_concave_parallel_not_the_thinnest(seed, k):
     rng, edge = np.random.default_rng(seed), 0.1
     profile = Profile(rng)
     concave, thinnest = profile.heights()
@@ -105,7 +105,7 @@ def test_ratio_tends_to_the_lowest_curvature(seed, k):
 
 @pytest.mark.parametrize("k", [0, 1, 3])
 @pytest.mark.parametrize("seed", range(7))
-def test_bulge_is_a_ridge_and_no_valley(seed, k):
+def test_bulge_is_a_ridge_and_not_a_valley(seed, k):
     rng, edge = np.random.default_rng(seed), 0.1
     middle, width = rng.uniform(-0.5, 0.5), rng.uniform(0.2, 0.3)
 
@@ -137,7 +137,7 @@ def hausdorff(one, two, step):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(7))
-def test_two_triangulations_of_a_sharp_valley(seed):
+def test_sharp_valley_is_found_under_any_triangulation(seed):
     """The valley is a slanted curve; the triangulations know nothing of it or of each other."""
     tilt, slope, phase = np.random.default_rng(seed).uniform([0.2, 0.4, 0.0], [0.6, 0.8, 2 * np.pi])
 
@@ -160,7 +160,7 @@ def test_two_triangulations_of_a_sharp_valley(seed):
 
 @pytest.mark.parametrize("k", [0, 1, 2])
 @pytest.mark.parametrize("seed", range(7))
-def test_ring_round_a_three_sided_prism_is_legal(seed, k):
+def test_ring_around_a_three_sided_prism_is_legal(seed, k):
     """It turns by 120 degrees at each corner, but not in the tangent plane there."""
     rng, rows = np.random.default_rng(seed), 9
     waist, given = rng.permutation([3, 4, 5])[:2]

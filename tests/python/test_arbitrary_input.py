@@ -142,7 +142,7 @@ edges = st.one_of(anything, st.lists(st.tuples(st.integers(-1, 45), st.integers(
 @given(
     name=st.sampled_from(["positions", "face_offsets", "face_vertices", "triangles", "hidden_faces"]), value=anything
 )
-def test_any_array_of_a_surface(name, value):
+def test_arbitrary_surface_arrays(name, value):
     names = ("positions", "face_offsets", "face_vertices", "triangles")
     parts = {**dict(zip(names, MESH.arguments(), strict=True)), name: value}
     surface = allowed(lambda: mrc.Surface(**parts))
@@ -154,7 +154,7 @@ def test_any_array_of_a_surface(name, value):
 
 @examples(100)
 @given(layouts=st.lists(st.sampled_from([*LAYOUTS]), min_size=5, max_size=5), wide=st.booleans())
-def test_the_same_numbers_in_any_layout(layouts, wide):
+def test_memory_layout_of_arrays_does_not_matter(layouts, wide):
     kinds = (np.float64, *([np.int64 if wide else np.int32] * 4))
     parts = [part.astype(kind) for part, kind in zip((*MESH.arguments(), RING), kinds, strict=True)]
     *parts, ring = [laid_out(part, layout) for part, layout in zip(parts, layouts, strict=True)]
@@ -168,7 +168,7 @@ def test_the_same_numbers_in_any_layout(layouts, wide):
     positions=arrays.arrays(np.float64, (8, 3), elements=st.floats(allow_nan=False, allow_infinity=False)),
     faces=st.lists(st.lists(st.integers(0, 7), min_size=3, max_size=4, unique=True), min_size=1, max_size=9),
 )
-def test_any_positions(positions, faces):
+def test_arbitrary_positions(positions, faces):
     """However large, small or flat."""
     offsets = np.cumsum([0] + [len(face) for face in faces])
     surface = allowed(lambda: mrc.Surface(positions, offsets, np.concatenate(faces)))
@@ -184,7 +184,7 @@ def test_any_positions(positions, faces):
 
 @examples(400)
 @given(value=indices, closed=st.booleans(), at=st.integers(0, 4))
-def test_any_contour(value, closed, at):
+def test_arbitrary_contours(value, closed, at):
     function = (mrc.optimize, mrc.measure, mrc.band, mrc.search_space)[at % 4]
     if at == 4:
         allowed(lambda: mrc.close_contour(SURFACE, value))
@@ -196,7 +196,7 @@ def test_any_contour(value, closed, at):
 @given(
     ends=st.one_of(st.just(POINTS), edges), parameters=st.one_of(st.just(np.zeros(6)), anything), k=st.integers(0, 2)
 )
-def test_any_points_on_edges(ends, parameters, k):
+def test_arbitrary_points_on_edges(ends, parameters, k):
     options = mrc.Options(width=2, refinement=k)
     contour = {"edge_vertices": ends, "edge_parameters": parameters}
     result = allowed(lambda: mrc.optimize(SURFACE, **contour, options=options))
@@ -213,7 +213,7 @@ values = st.one_of(anything, st.floats(0, 3), st.floats(0), st.integers(0, 4), s
 
 @examples(500)
 @given(chosen=st.dictionaries(st.sampled_from(NAMES), values, min_size=1, max_size=3))
-def test_any_option(chosen):
+def test_arbitrary_option_values(chosen):
     options = allowed(lambda: mrc.Options(**chosen))
     if options is not None and (options.refinement < 4 or options.refinement > 10_000):
         result = allowed(lambda: mrc.optimize(SURFACE, RING, options=options))
@@ -222,7 +222,7 @@ def test_any_option(chosen):
 
 @examples(100)
 @given(name=st.text(max_size=12), value=scalars)
-def test_any_name_of_an_option(name, value):
+def test_arbitrary_option_names(name, value):
     allowed(lambda: mrc.Options(**{name: value}))
 
 
@@ -241,7 +241,7 @@ wishes = st.sampled_from([*wish_values]).flatmap(lambda name: st.tuples(st.just(
 
 @examples(400)
 @given(wish=wishes, weight=st.sampled_from([0.0, 1.0, -1e50]))
-def test_any_wish(wish, weight):
+def test_arbitrary_constraints(wish, weight):
     """With the largest weights, what is better is a matter of rounding."""
     options = mrc.Options(width=2, region_weight=weight)
     result = allowed(lambda: mrc.optimize(SURFACE, RING, options=options, **dict([wish])))
@@ -255,7 +255,7 @@ def test_any_wish(wish, weight):
     closed=st.one_of(st.booleans(), anything),
     wish=st.one_of(wishes, st.just(("closed", True))),
 )
-def test_any_list_of_contours(contours, closed, wish):
+def test_arbitrary_lists_of_contours(contours, closed, wish):
     more = {"closed": closed, "options": mrc.Options(width=2), **dict([wish])}
     results = allowed(lambda: mrc.optimize_all(SURFACE, contours, **more))
     for result in results or ():
@@ -264,7 +264,7 @@ def test_any_list_of_contours(contours, closed, wish):
 
 @examples(100)
 @given(answer=anything)
-def test_any_answer_of_progress(answer):
+def test_arbitrary_return_values_of_progress(answer):
     """Whatever it answers is taken as yes or no; what has no truth, as an array, is an error."""
     result = allowed(lambda: mrc.optimize(SURFACE, RING, progress=lambda share: answer))
     if result is not None:

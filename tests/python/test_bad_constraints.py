@@ -61,7 +61,7 @@ WISHES = {
 
 
 @pytest.mark.parametrize("name", WISHES)
-def test_wishes(name):
+def test_bad_constraints_are_named(name):
     wishes, pattern = WISHES[name]
     with pytest.raises((ValueError, TypeError), match=pattern):
         optimize(**wishes)
@@ -89,14 +89,14 @@ OPTIONS = {
 
 
 @pytest.mark.parametrize("name", OPTIONS)
-def test_option_values(name):
+def test_bad_option_values_are_named(name):
     option = next(iter(OPTIONS[name]))
     with pytest.raises(ValueError, match=option):
         mrc.Options(**OPTIONS[name])
 
 
 @pytest.mark.parametrize("pair", [("length", "edges"), ("arcs", "arc")])
-def test_length_bias_wants_one_measure(pair):
+def test_length_bias_requires_one_measure_of_length(pair):
     options = {"denominator": pair[0], "length_measure": pair[1]}
     with pytest.raises(ValueError, match="length_measure|denominator"):
         optimize(options={**options, "length_bias": 0.5})
@@ -104,28 +104,28 @@ def test_length_bias_wants_one_measure(pair):
 
 
 @pytest.mark.parametrize("name", ["refinements", "end", "attractor", "min_saliency"])
-def test_unknown_options(name):
+def test_unknown_options_are_refused(name):
     with pytest.raises(TypeError, match=name):
         mrc.Options(**{name: 1})
 
 
-def test_open_ends_that_are_the_same():
+def test_open_contour_with_equal_ends_is_refused():
     with pytest.raises(ValueError, match="32"):
         optimize([32, 33, 34, 35, 36, 37, 38, 39, 32], closed=False)
 
 
-def test_an_open_contour_needs_two_points():
+def test_open_contour_needs_two_points():
     with pytest.raises(ValueError, match="."):
         optimize([32], closed=False)
 
 
 @pytest.mark.parametrize("k", [10**6, 2**31 - 1])
-def test_a_graph_that_does_not_fit_in_memory(k):
+def test_graph_that_does_not_fit_in_memory_is_refused(k):
     with pytest.raises(ValueError, match="(?i)byte|memory|GB|GiB|large|many"):
         optimize(options={"refinement": k})
 
 
-def test_impossible_together():
+def test_required_vertices_on_one_flow_level_are_infeasible():
     """Two vertices on one level of the flow; the error names one of them."""
     mesh = meshes.tube(np.ones(9), COLUMNS)
     with pytest.raises(mrc.Infeasible, match=r"stops at vertex \d|cannot even begin"):
@@ -133,13 +133,13 @@ def test_impossible_together():
     assert issubclass(mrc.Infeasible, ValueError)
 
 
-def test_required_edges_that_cross_one_level():
+def test_required_edges_across_one_flow_level_are_infeasible():
     mesh = meshes.tube(np.ones(9), COLUMNS)
     with pytest.raises(mrc.Infeasible, match=r"stops at vertex \d|cannot even begin"):
         optimize(mesh=mesh, required_edges=[(33, 34), (41, 42)])
 
 
-def test_a_contour_across_a_barrier():
+def test_contour_across_a_barrier_is_refused():
     """It runs through the middles of the edges between two rows."""
     mesh = meshes.tube(np.ones(9), COLUMNS, split_share=1.0)
     between = [t for t in mesh.triangles.tolist() if {v // COLUMNS for v in t} == {4, 5}]
@@ -165,20 +165,20 @@ REFINED = {
 
 
 @pytest.mark.parametrize("name", REFINED)
-def test_refined_contours(name):
+def test_bad_refined_contours_are_refused(name):
     ends, parameters, pattern = REFINED[name]
     with pytest.raises(ValueError, match=pattern):
         mrc.optimize(surface_of(tube()), edge_vertices=ends, edge_parameters=parameters)
 
 
-def test_either_vertices_or_points():
+def test_vertices_and_points_are_mutually_exclusive():
     with pytest.raises(ValueError, match="edge_vertices"):
         mrc.optimize(surface_of(tube()), ring(4), edge_vertices=[(32, 32)], edge_parameters=[0.0])
     with pytest.raises(ValueError, match="vertices"):
         mrc.optimize(surface_of(tube()))
 
 
-def test_whole_surface_with_a_border_on_the_other_side():
+def test_whole_surface_band_reaches_the_border_on_the_other_side():
     """A disk with a hole: one side of the contour is a border at once, the other goes on to the border outside."""
     rng = np.random.default_rng(2)
     mesh = meshes.jittered_annulus(rng, 6, 9)

@@ -96,13 +96,13 @@ BAD_SURFACES = {
 
 
 @pytest.mark.parametrize("name", BAD_SURFACES)
-def test_bad_surfaces(name):
+def test_bad_surface_arrays_are_refused(name):
     changes, message = BAD_SURFACES[name]
     with pytest.raises((ValueError, TypeError), match=message):
         mrc.Surface(**arguments(**changes))
 
 
-def test_the_unchanged_arguments_are_fine():
+def test_unchanged_arguments_are_accepted():
     mrc.Surface(**arguments())
     right_answer(tube(), ring(4))
 
@@ -122,7 +122,7 @@ def test_other_dtypes_and_layouts_are_converted(dtype):
     assert found.ratio == expected.ratio
 
 
-def test_arrays_changed_after_construction():
+def test_surface_keeps_its_own_copy_of_arrays():
     """The surface owns what it keeps."""
     mesh, contour = tube(), ring(4)
     expected = mrc.optimize(surface_of(mesh), contour)
@@ -136,14 +136,14 @@ def test_arrays_changed_after_construction():
     assert found.ratio == expected.ratio
 
 
-def test_read_only_arrays_are_fine():
+def test_read_only_arrays_are_accepted():
     arrays = [array.copy() for array in tube().arguments()]
     for array in arrays:
         array.flags.writeable = False
     mrc.optimize(mrc.Surface(*arrays), ring(4))
 
 
-def test_empty_mesh():
+def test_empty_mesh_is_legal():
     """No face is legal; then there is no contour."""
     surface = mrc.Surface(np.zeros((0, 3)), np.zeros(1, dtype=np.int32), np.zeros(0, dtype=np.int32))
     with pytest.raises(ValueError, match="0"):
@@ -169,13 +169,13 @@ BAD_CONTOURS = {
 
 @pytest.mark.parametrize("name", BAD_CONTOURS)
 @pytest.mark.parametrize("function", [mrc.optimize, mrc.measure, mrc.band, mrc.search_space])
-def test_bad_contours(name, function):
+def test_bad_contours_are_refused(name, function):
     contour, message = BAD_CONTOURS[name]
     with pytest.raises((ValueError, TypeError), match=message):
         function(surface_of(tube()), contour, closed=True, options=mrc.Options())
 
 
-def test_a_diagonal_is_no_edge():
+def test_diagonal_is_not_an_edge():
     mesh = tube()
     face = next(face for face in mesh.faces if 33 in face and 42 in face)
     start = 2 * mesh.faces.index(face)
@@ -193,7 +193,7 @@ def test_contour_on_a_border(flow):
 
 
 @pytest.mark.parametrize("flow", FLOWS)
-def test_contour_that_follows_the_border_for_a_while(flow):
+def test_contour_partly_along_the_border(flow):
     contour = [0, 1, 2, 3, 11, 12, 13, 14, 15, 8]
     right_answer_or_error(tube(), np.array(contour, dtype=np.int32), {"flow": flow})
 
@@ -213,7 +213,7 @@ def test_contour_on_an_edge_of_three_faces(flow):
 
 
 @pytest.mark.parametrize("flow", FLOWS)
-def test_contour_on_disagreeing_winding(flow):
+def test_contour_along_inconsistent_winding(flow):
     base = tube()
     flipped = [face[::-1] if i in (34, 41) else face for i, face in enumerate(base.faces)]
     right_answer_or_error(meshes.polygon_mesh(base.positions, flipped), ring(4), {"flow": flow})
@@ -235,7 +235,7 @@ def test_contour_through_a_vertex_of_two_fans(flow):
 
 
 @pytest.mark.parametrize("flow", FLOWS)
-def test_contour_round_a_single_vertex_or_face(flow):
+def test_contour_around_a_single_vertex_or_face(flow):
     sphere = meshes.icosphere(2)
     v = 40
     link = {a: b for face in sphere.faces if v in face for a, b in pairs(face) if v not in (a, b)}
@@ -274,7 +274,7 @@ def test_zero_area_faces(flow):
 
 
 @pytest.mark.parametrize("flow", FLOWS)
-def test_a_mesh_in_one_point_or_line(flow):
+def test_mesh_collapsed_to_a_point_or_line(flow):
     mesh = tube()
     right_answer_or_error(mesh.moved(np.zeros_like(mesh.positions)), ring(4), {"flow": flow})
     right_answer_or_error(mesh.moved(mesh.positions * [0, 0, 1]), ring(4), {"flow": flow})
@@ -317,7 +317,7 @@ def test_cube(flow):
 
 
 @pytest.mark.parametrize("flow", FLOWS)
-def test_prism_of_three_sides(flow):
+def test_ring_around_a_triangular_prism_is_legal(flow):
     """Turns count in the tangent plane, so the ring round a triangular prism is legal in spite of its sharp corners."""
     mesh = meshes.tube([1.0, 0.9, 0.7, 0.9, 1.0], 3)
     space = mrc.search_space(surface_of(mesh), ring(1, 3), options=mrc.Options(flow=flow))
@@ -356,14 +356,14 @@ BAD_OPTIONS = [
 
 
 @pytest.mark.parametrize("bad", BAD_OPTIONS, ids=[str(bad) for bad in BAD_OPTIONS])
-def test_bad_option_values(bad):
+def test_error_names_the_bad_option(bad):
     """The message says which option it is."""
     with pytest.raises(ValueError, match=next(iter(bad))):
         mrc.optimize(surface_of(tube()), ring(4), options=mrc.Options(**bad))
 
 
 @pytest.mark.parametrize("bad", [{"width": "wide"}, {"widht": 4}, {"width": 2.5}, {"flow": 3}, {"iterations": 1.5}])
-def test_unknown_options_and_wrong_types(bad):
+def test_unknown_options_and_wrong_types_are_refused(bad):
     with pytest.raises(TypeError):
         mrc.Options(**bad)
 
@@ -373,7 +373,7 @@ def test_options_are_keywords_only():
         mrc.Options(4)
 
 
-def test_scales_must_be_scales():
+def test_scales_must_be_a_scales_object():
     with pytest.raises(TypeError):
         mrc.optimize(surface_of(tube()), ring(4), scales={"h": 1.0})
 
@@ -386,7 +386,7 @@ proper_faces = st.lists(st.lists(st.integers(0, 9), min_size=3, max_size=4, uniq
 
 @settings(derandomize=True, max_examples=300, deadline=None, database=None)
 @given(soup=st.one_of(faces, proper_faces, proper_faces), which=st.integers(0, 13))
-def test_polygon_soup(soup, which):
+def test_polygon_soup_gives_an_error_or_finite_numbers(soup, which):
     """Random polygons on few vertices, most of their edges shared by many: an error, or finite numbers."""
     positions = np.random.default_rng(5).standard_normal((10, 3))
     offsets = np.cumsum([0] + [len(face) for face in soup])
@@ -422,7 +422,7 @@ def damaged_sphere(rng):
     return meshes.polygon_mesh(positions, polygons), max(loops, key=len), hidden.astype(np.int32)
 
 
-def test_damaged_meshes():
+def test_damage_beside_a_sound_loop_is_tolerated():
     """Where the loop itself is sound the answer is right, whatever is near it."""
     answers = 0
     for seed in range(250):

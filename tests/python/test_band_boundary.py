@@ -28,7 +28,7 @@ def funnel(rng, rows, corner):
 @pytest.mark.parametrize("side", [-1, 1])
 @pytest.mark.parametrize("flow", FLOWS)
 @pytest.mark.parametrize("seed", range(3))
-def test_optimum_on_a_border(seed, flow, side, k):
+def test_finds_an_optimum_on_the_band_boundary(seed, flow, side, k):
     """The funnel's corner is the widest ring of the band (its given contour lies below) or the narrowest."""
     width = 1 + seed % 3
     given, rows = width + 3, 2 * width + 7

@@ -98,7 +98,7 @@ def cancel_once(rng, surface, call, longest):
     return all(cancelled)
 
 
-def test_a_cancel_at_a_random_moment_leaks_nothing_and_leaves_the_mesh():
+def test_cancelling_at_a_random_moment_leaks_nothing_and_keeps_the_mesh():
     rng = np.random.default_rng(11)
     arrays = [np.array(part) for part in MESH.arguments()]
     surface = mrc.Surface(*arrays)
@@ -120,7 +120,7 @@ def test_a_cancel_at_a_random_moment_leaks_nothing_and_leaves_the_mesh():
         assert list(map(bytes_of, call(surface_of(MESH), 3, None))) == before[call]
 
 
-def test_what_is_kept_is_seen():
+def test_leak_measurement_sees_memory_that_is_kept():
     """Otherwise the measure above would show nothing."""
     held = allocated()
     if not held:

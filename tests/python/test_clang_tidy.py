@@ -29,21 +29,21 @@ def chosen(files, *changed):
     return [unit.name for unit in chosen_units(units, includes, {files / name for name in changed})]
 
 
-def test_a_changed_header_means_all_that_include_it_and_its_own_source_first(files):
+def test_changed_header_selects_all_includers_its_own_source_first(files):
     assert chosen(files, "low.h") == ["low.cpp", "high.cpp"]
     assert chosen(files, "high.h") == ["high.cpp"]
 
 
-def test_what_changed_itself_comes_first(files):
+def test_changed_files_come_first(files):
     assert chosen(files, "high.cpp") == ["high.cpp"]
     assert chosen(files, "low.h", "high.cpp") == ["high.cpp", "low.cpp"]
 
 
-def test_nothing_changed_means_nothing(files):
+def test_no_changes_select_no_files(files):
     assert chosen(files) == chosen(files, "README.md") == []
 
 
-def test_files_left_for_another_run_are_skipped_and_not_passed(tmp_path):
+def test_files_left_for_another_run_count_as_skipped(tmp_path):
     report(tmp_path / "a.xml", {"good.cpp": None, "bad.cpp": "a finding", "left.cpp": ""}, "abc")
     text = (tmp_path / "a.xml").read_text()
     assert 'tests="3" failures="1" skipped="1"' in text

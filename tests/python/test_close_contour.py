@@ -68,7 +68,7 @@ def check_simple(mesh, loop, chain):
 
 
 @pytest.mark.parametrize("share", SHARES)
-def test_part_of_a_ring_is_closed_once_round_the_limb(share):
+def test_part_of_a_ring_is_closed_once_around_the_limb(share):
     for seed in range(70):
         rng = np.random.default_rng([seed, round(100 * share)])
         mesh, center, plane = limb(rng)
@@ -81,7 +81,7 @@ def test_part_of_a_ring_is_closed_once_round_the_limb(share):
 
 
 @pytest.mark.parametrize("count", [2, 3, 4, 27])
-def test_the_shortest_and_the_longest_chain_go_round(count):
+def test_shortest_and_longest_chains_are_closed(count):
     """A single edge of a straight ring is enough, and a ring that lacks one edge takes just this."""
     for seed in range(10):
         rng = np.random.default_rng(seed)
@@ -94,7 +94,7 @@ def test_the_shortest_and_the_longest_chain_go_round(count):
     assert count < 27 or edges_of(loop) == edges_of(ring)
 
 
-def test_round_the_tube_of_a_torus():
+def test_chain_is_closed_around_the_tube_of_a_torus():
     for seed in range(20):
         rng = np.random.default_rng(seed)
         mesh = meshes.torus(20, 60, rng=rng, split_share=rng.uniform(), noise=0.01)
@@ -106,7 +106,7 @@ def test_round_the_tube_of_a_torus():
         assert abs(winding(mesh, loop, direction, around)) == 1
 
 
-def test_round_a_thin_limb():
+def test_chain_is_closed_around_a_thin_limb():
     """A flat section, four times as wide as thick."""
     for seed in range(20):
         rng = np.random.default_rng(seed)
@@ -116,7 +116,7 @@ def test_round_a_thin_limb():
         assert abs(winding(flat, mrc.close_contour(surface_of(flat), chain), np.zeros(3), np.eye(3)[:2])) == 1
 
 
-def test_round_a_finger_and_not_over_its_tip():
+def test_chain_is_closed_around_a_finger_not_over_its_tip():
     for seed in range(20):
         rng = np.random.default_rng(seed)
         mesh, base = meshes.finger(rng)
@@ -172,7 +172,7 @@ def test_faces_far_away_change_nothing():
 
 
 @pytest.mark.parametrize("share", SHARES)
-def test_the_groove_is_found_from_part_of_a_ring(share):
+def test_optimization_finds_the_groove_from_part_of_a_ring(share):
     """Where the chain lies within three rings of the groove, wherever it begins."""
     options = mrc.Options(flow="harmonic", width=8, iterations=2, length_bias=2.0, anchor=0.5)
     for seed in range(70):
@@ -193,7 +193,7 @@ def plane(rows=12, columns=15):
     return meshes.polygon_mesh(points, meshes.grid_faces(rows, columns, closed_columns=False))
 
 
-def test_progress_never_falls_and_changes_nothing():
+def test_progress_never_decreases_and_changes_nothing():
     rng = np.random.default_rng(4)
     mesh, chain = grid_limb("grooved", rng), np.arange(20 * COLUMNS + 3, 20 * COLUMNS + 12)
     shares = []
@@ -203,7 +203,7 @@ def test_progress_never_falls_and_changes_nothing():
     assert (shares[0], shares[-1]) == (0.0, 1.0)
 
 
-def test_closing_is_cancelled_at_once():
+def test_closing_can_be_cancelled_at_once():
     surface, shares = surface_of(grid_limb("cylinder", np.random.default_rng(4))), []
     chain = np.arange(20 * COLUMNS + 3, 20 * COLUMNS + 12)
     assert mrc.close_contour(surface, chain, progress=lambda share: shares.append(share) or False) is None
@@ -212,7 +212,7 @@ def test_closing_is_cancelled_at_once():
         mrc.close_contour(surface, chain, progress=lambda _: 1 / 0)
 
 
-def test_a_long_refusal_can_be_left():
+def test_long_vain_search_can_be_cancelled():
     """All that can be reached is searched before nothing is found; progress is heard meanwhile."""
     plane = meshes.polygon_mesh(*flat_sheet(160))
     shares = []
@@ -234,7 +234,7 @@ def flat_sheet(size):
     return points, meshes.grid_faces(size, size, closed_columns=False)
 
 
-def test_nothing_leads_round_on_a_plane():
+def test_chain_on_a_plane_cannot_be_closed():
     with pytest.raises(ValueError, match="vertex 83.*vertex 79.*draw the chain on a limb"):
         mrc.close_contour(surface_of(plane()), np.arange(79, 84))
 
@@ -263,7 +263,7 @@ def test_hidden_faces_and_slits_are_not_crossed():
         ([0, 1, 2], r"\(0, 1\).*border"),
     ],
 )
-def test_bad_chains_are_named(chain, message):
+def test_errors_name_the_bad_vertices_of_a_chain(chain, message):
     mesh = meshes.tube(np.full(20, 1.0), COLUMNS)
     with pytest.raises(ValueError, match=message):
         mrc.close_contour(surface_of(mesh), np.array(chain, dtype=np.int32))

@@ -48,20 +48,20 @@ def inner_edges(case):
 
 @pytest.mark.parametrize("kind", ["vertices", "edges", "vertices and edges"])
 @seeds(40)
-def test_closed_regular(kind, seed):
+def test_closed_regular_optimum_matches_the_independent_solver(kind, seed):
     check_optimum(constrained_case(kind, 0, seed))
 
 
 @pytest.mark.parametrize("kind", ["vertices", "edges"])
 @seeds(30)
-def test_closed_refined(kind, seed):
+def test_closed_refined_optimum_matches_the_independent_solver(kind, seed):
     check_optimum(constrained_case(kind, 1 + seed % 7 // 6, seed))
 
 
 @pytest.mark.parametrize("ends", ["edges", "vertices", "border"])
 @pytest.mark.parametrize("kind", ["vertices", "edges"])
 @seeds(10)
-def test_open(ends, kind, seed):
+def test_open_optimum_matches_the_independent_solver(ends, kind, seed):
     check_optimum(constrained_case(kind, seed % 2, seed, ends))
 
 

@@ -43,7 +43,7 @@ BODIES = {
 
 @pytest.mark.parametrize("body", BODIES)
 @pytest.mark.parametrize(("radius", "smoothing"), [(1.6, 1.0), (0.6, 0.0), (2.7, 0.5)])
-def test_equals_the_plain_implementation(body, radius, smoothing, rng):
+def test_matches_the_independent_implementation(body, radius, smoothing, rng):
     mesh = BODIES[body](rng)
     geometry = Geometry(mesh)
     h = geometry.mean_edge(set(range(len(mesh.positions))))
@@ -67,7 +67,7 @@ def shrinking_disk(mesh, radius):
 
 
 @pytest.mark.parametrize("subdivisions", [3, 4])
-def test_sphere(subdivisions):
+def test_sphere_has_curvature_one_over_radius(subdivisions):
     sphere = meshes.icosphere(subdivisions)
     found = curvature(sphere.moved(2.5 * sphere.positions))
     assert found.kappa_min == pytest.approx(0.4, rel=0.12)
@@ -76,7 +76,7 @@ def test_sphere(subdivisions):
     assert fixed.kappa_min.mean() == pytest.approx(1, rel=0.06)
 
 
-def test_cylinder():
+def test_cylinder_has_one_curved_direction():
     mesh = meshes.tube(np.full(41, 2.0), 64, step=0.2)
     found = curvature(mesh)
     middle = slice(18 * 64, 22 * 64)
@@ -101,7 +101,7 @@ def test_torus_converges():
     assert fine[1] < 0.5 * coarse[1]
 
 
-def test_torus_directions():
+def test_torus_principal_directions():
     """kappa_min is negative on the inner side; its direction runs round the hole, kappa_max's round the tube."""
     mesh = meshes.torus(48, 192)
     found = curvature(mesh)
@@ -114,7 +114,7 @@ def test_torus_directions():
 
 
 @pytest.mark.parametrize("axis", [(1.0, 0.0), (0.6, 0.8)])
-def test_concave_crease(axis, rng):
+def test_concave_crease_is_negative_with_direction_along_it(axis, rng):
     """A sharp groove: kappa_min < 0 in it, and the direction of kappa_max runs along it."""
     mesh = height_field(1, 10, lambda x, y: 0.8 * np.abs(axis[1] * x - axis[0] * y), rng, 0.1)
     found = curvature(mesh)
@@ -148,7 +148,7 @@ def test_saddle_converges(rng):
 
 
 @pytest.mark.parametrize("size", [1e-4, 30.0])
-def test_scaling(size, rng):
+def test_scaling_divides_the_curvature(size, rng):
     mesh = meshes.peanut(rng, 3)
     base, scaled = curvature(mesh), curvature(mesh.moved(mesh.positions * size))
     scale = np.abs(base.kappa_max).max()
@@ -156,7 +156,7 @@ def test_scaling(size, rng):
     assert scaled.kappa_max * size == pytest.approx(base.kappa_max, rel=1e-9, abs=1e-9 * scale)
 
 
-def test_rigid_motion(rng):
+def test_rigid_motion_changes_nothing(rng):
     mesh = meshes.peanut(rng, 3)
     base, moved = curvature(mesh), curvature(meshes.rigidly_moved(mesh, rng))
     assert moved.kappa_min == pytest.approx(base.kappa_min, abs=1e-9)
@@ -211,13 +211,13 @@ def test_diagonals_of_planar_faces_do_not_matter(rng):
     assert curvature(other).kappa_min == pytest.approx(curvature(mesh).kappa_min, abs=1e-9)
 
 
-def test_hidden_faces_count(rng):
+def test_hidden_faces_contribute_to_curvature(rng):
     mesh = meshes.peanut(rng, 2)
     hidden = mrc.curvature(surface_of(mesh, hidden_faces=np.arange(0, 300, 3, dtype=np.int32)), mrc.Options())
     assert np.array_equal(hidden.kappa_min, curvature(mesh).kappa_min)
 
 
-def test_finite_everywhere(rng):
+def test_curvature_is_finite_on_degenerate_meshes(rng):
     """Borders, zero-area faces, zero-length edges, a fold flat onto itself, a vertex of no face."""
     positions = np.array(
         [[0, 0, 0], [1, 0, 0], [2, 0, 0], [1, 1, 0], [1, 1, 0], [0, 2, 0], [2, 2, 0], [1, -1, 0], [9, 9, 9]],

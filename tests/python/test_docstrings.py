@@ -28,7 +28,7 @@ def arguments(name):
     return set(re.findall(r"[(,] ?(\w+):", signature))
 
 
-def test_there_are_names_to_look_at():
+def test_public_names_are_found():
     assert {"optimize", "band"} <= set(FUNCTIONS)
     assert {"Surface", "Options", "Result", "Infeasible"} <= set(CLASSES)
     assert "required_edges" in arguments("optimize")
@@ -46,14 +46,14 @@ def test_every_attribute_is_explained(name):
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
-def test_every_argument_is_explained_here_or_where_the_words_point(name):
+def test_every_argument_is_explained_or_refers_to_an_explanation(name):
     said = words(getattr(mrc, name))
     if name != "optimize" and "those of optimize" in said:
         said += words(mrc.optimize)
     assert not [argument for argument in arguments(name) if not re.search(rf"\b{argument}\b", said)]
 
 
-def test_options_say_their_defaults():
+def test_options_document_their_defaults():
     defaults = mrc.Options()
     for key, value in vars(mrc.Options).items():
         if not key.startswith("_"):
@@ -61,7 +61,7 @@ def test_options_say_their_defaults():
             assert f"{key} = {getattr(defaults, key)!r}: " in mrc.Options.__doc__
 
 
-def test_arrays_say_their_types():
+def test_arrays_document_their_types():
     surface = mrc.Surface(np.eye(3), None, np.array([[0, 1, 2]]))
     curvature = mrc.curvature(surface)
     for key in ("kappa_min", "kappa_max", "direction_min", "direction_max"):
@@ -71,7 +71,7 @@ def test_arrays_say_their_types():
 
 
 @pytest.mark.parametrize("closed", [True, False])
-def test_results_have_the_shapes_and_types_that_they_say(closed):
+def test_results_have_their_documented_shapes_and_types(closed):
     tube, ring = meshes.tube(1 + 0.1 * np.cos(np.arange(9)), 8), 8 * 4 + np.arange(8)
     result = mrc.optimize(surface_of(tube), ring, closed)
     for key in ("vertices", "edge_vertices", "edge_parameters", "positions", "segment_faces"):
@@ -83,12 +83,12 @@ def test_results_have_the_shapes_and_types_that_they_say(closed):
         assert str(array.dtype) == dtype
 
 
-def test_a_signature_fits_on_a_screen():
+def test_signatures_fit_on_a_screen():
     assert max(len(getattr(mrc, name).__doc__.splitlines()[0]) for name in FUNCTIONS) < 600
 
 
 @pytest.mark.parametrize("name", ["optimize", "optimize_all", "measure", "search_space"])
-def test_every_error_is_named_here_or_where_the_words_point(name):
+def test_every_error_is_named_or_refers_to_an_explanation(name):
     said = words(getattr(mrc, name)) + words(mrc.optimize)
     assert {"ValueError", "Infeasible", "TooLarge", "TypeError"} <= set(re.findall(r"\w+", said))
 

@@ -42,19 +42,19 @@ def run(tmp_path, monkeypatch):
     return lambda page, codes: executed(page, codes, {})
 
 
-def test_every_page_with_examples_is_run():
+def test_every_page_with_examples_is_tested():
     assert {page for page in PAGES if blocks(page, "python")} == {README, WHEEL_PAGE, ADDON_PAGE}
     assert examples(ADDON_PAGE) == []
 
 
-def test_the_readme_s_example_finds_the_waist_and_plots_it(run, tmp_path):
+def test_readme_example_finds_the_waist_and_plots_it(run, tmp_path):
     names = run(README, examples(README))
     assert names["result"].status == "improved"
     assert np.allclose(names["result"].positions[:, 2], 0.2)
     assert (tmp_path / "waist.png").read_bytes().startswith(PNG)
 
 
-def test_the_wheel_s_examples_do_what_they_say(run):
+def test_wheel_page_examples_do_what_they_say(run):
     first, several, across, *_ = examples(WHEEL_PAGE)
     names = run(WHEEL_PAGE, [first, several, across])
     assert set(names["result"].vertices // 24) == {11}
@@ -65,25 +65,25 @@ def test_the_wheel_s_examples_do_what_they_say(run):
 
 
 @pytest.mark.skipif(not hasattr(mrc, "check_contour"), reason="this build has no check_contour")
-def test_the_wheel_s_examples_of_settings_and_errors(run, capsys):
+def test_wheel_page_examples_of_settings_and_errors_run(run, capsys):
     run(WHEEL_PAGE, examples(WHEEL_PAGE))
     said = re.search(r"# (\[.*\])\n", examples(WHEEL_PAGE)[-1])
     assert capsys.readouterr().out.splitlines()[-1] == said[1]
 
 
-def test_the_readme_s_lines_of_cpp_are_those_of_a_program_that_is_built():
+def test_readme_cpp_lines_are_part_of_a_built_program():
     program = (ROOT / "tests/install/main.cpp").read_text(encoding="utf-8")
     (code,) = blocks(README, "cpp")
     assert [line for line in code.splitlines() if line not in [known.strip() for known in program.splitlines()]] == []
 
 
-def test_the_lines_of_cmake_are_those_of_a_project_that_is_built():
+def test_cmake_lines_are_part_of_a_built_project():
     project = (ROOT / "tests/install/CMakeLists.txt").read_text(encoding="utf-8").splitlines()
     (code,) = blocks(ROOT / "native/README.md", "cmake")
     assert [line for line in code.splitlines() if line not in project] == []
 
 
-def test_the_readme_is_short():
+def test_readme_is_short():
     assert len(README.read_text(encoding="utf-8").splitlines()) <= 150
 
 
@@ -100,25 +100,25 @@ def leads_somewhere(page, link):
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name)
-def test_what_a_page_links_to_is_there(page):
+def test_links_lead_somewhere(page):
     text = re.sub(r"```.*?```", "", page.read_text(encoding="utf-8"), flags=re.DOTALL)
     relative = [link for link in re.findall(r"\]\(([^)]+)\)", text) if "://" not in link]
     assert [link for link in relative if not leads_somewhere(page, link)] == []
 
 
 @pytest.mark.parametrize("page", [README, ROOT / "blend_samples/README.md"], ids=name)
-def test_a_page_with_pictures_shows_them(page):
+def test_pictures_of_a_page_exist(page):
     assert re.findall(r"!\[[^\]]*\]\([^)]+\.png\)", page.read_text(encoding="utf-8"))
 
 
-def test_the_end_of_the_benchmarks_table_survives_a_new_one(monkeypatch):
+def test_handwritten_end_of_the_benchmark_table_is_kept(monkeypatch):
     monkeypatch.syspath_prepend(str(ROOT / "native/bench"))
     table = __import__("table")
     assert table.TABLE.read_text(encoding="utf-8").endswith("\n\n" + table.explanations() + "\n")
     assert "## What the figures mean" in table.explanations()
 
 
-def test_the_gallery_s_files_are_small():
+def test_gallery_files_are_small():
     files = sorted((ROOT / "blend_samples").glob("*.blend"))
     assert "character.blend" in [file.name for file in files]
     assert not [file.name for file in files if file.stat().st_size >= 2**20]

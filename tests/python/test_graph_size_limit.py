@@ -50,21 +50,21 @@ def refused(call):
 
 @pytest.mark.parametrize("k", [100_000, 2**31 - 1])
 @pytest.mark.parametrize("function", [mrc.optimize, mrc.measure, mrc.search_space])
-def test_too_many_arcs_for_the_contour_alone(surface, function, k):
+def test_too_many_arcs_of_the_contour_alone_are_refused(surface, function, k):
     (_, arcs, size), message = refused(lambda: function(surface, RING, options=mrc.Options(refinement=k)))
     assert arcs > MOST_ARCS
     assert size > 24 * MOST_ARCS
     assert f"now {k}" in message
 
 
-def test_of_several_contours_the_one_too_large_is_named(surface):
+def test_error_names_the_contour_that_is_too_large(surface):
     rings = [RING, RING + 16]
     _, message = refused(lambda: mrc.optimize_all(surface, rings, options=mrc.Options(refinement=100_000)))
     assert message.startswith("contour 0: ")
 
 
 @pytest.mark.parametrize("iterations", [{"iterations": 1}, {"iterations": 0, "regular_iterations": 1}])
-def test_the_band_counts_where_it_is_searched(iterations):
+def test_only_bands_searched_with_refinement_count(iterations):
     """A refinement that is fine for a narrow band is refused for a wide one, in iterations that use it alone."""
     torus, ring = surface_of(meshes.torus(60, 120)), 120 * np.arange(60, dtype=np.int32)
     options = mrc.Options(refinement=40, width=100, flow="arc_length", **iterations)
@@ -84,7 +84,7 @@ def free_bytes():
     return 1024 * int(re.search(r"MemAvailable: *(\d+)", path.read_text())[1])
 
 
-def test_the_limit_lies_at_the_free_memory_or_the_most_arcs(surface):
+def test_limit_is_the_free_memory_or_the_maximum_number_of_arcs(surface):
     """By halving, on what only measures and builds no graph."""
     fine, too_many, message = 1, 100_000, ""
     while too_many - fine > 1 + fine // 100:

@@ -32,7 +32,7 @@ def biased_case(seed, k, **more):
 
 
 @seeds(60)
-def test_by_arc_length(seed):
+def test_matches_enumeration_by_arc_length(seed):
     case = biased_case(seed, 0)
     objective = case.energy.objective
     least = min((objective(F, G) for _, F, G in case.graph.paths()), default=inf)
@@ -41,14 +41,14 @@ def test_by_arc_length(seed):
 
 @pytest.mark.parametrize("floor", [0.0, 0.8, 1.1])
 @seeds(20, 70)
-def test_by_arc_length_refined(floor, seed):
+def test_matches_the_independent_solver_by_arc_length_refined(floor, seed):
     case = biased_case(seed, 1, width=1 + seed % 2, length_floor=floor)
     check_optimum(case, case.graph.best_with_bias(case.given_objective()))
 
 
 @pytest.mark.parametrize("k", [0, 1])
 @seeds(60)
-def test_by_number_of_edges(seed, k):
+def test_matches_the_dynamic_program_by_number_of_edges(seed, k):
     case = biased_case(seed, k, denominator="arcs", length_measure="edges")
     least = case.graph.best_by_count(case.energy.objective)
     check_optimum(case, min(least, case.given_objective()))

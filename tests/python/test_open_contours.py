@@ -22,7 +22,7 @@ def open_case(ends, seed, k=0, **more):
 
 @pytest.mark.parametrize("ends", ["edges", "vertices", "border"])
 @seeds(60)
-def test_regular_optimum(ends, seed):
+def test_regular_optimum_matches_the_independent_solver(ends, seed):
     case = open_case(ends, seed)
     if ends == "vertices":
         check_same_graph(case)
@@ -31,7 +31,7 @@ def test_regular_optimum(ends, seed):
 
 @pytest.mark.parametrize("ends", ["edges", "vertices", "border"])
 @seeds(24)
-def test_refined_optimum(ends, seed):
+def test_refined_optimum_matches_the_independent_solver(ends, seed):
     case = open_case(ends, seed, k=1 + seed % 2)
     if ends == "vertices":
         check_same_graph(case)
@@ -70,7 +70,7 @@ def test_ends_are_kept_and_the_result_is_simple(realistic, ends, k):
 
 
 @pytest.mark.parametrize("k", [0, 1])
-def test_an_end_on_the_border_slides_along_it(k):
+def test_end_on_the_border_slides_along_it(k):
     """A sheet with a groove: a straight line beside it slides into it, and ends on the borders that it began on."""
     rows, columns = 9, 15
     x, y = np.meshgrid(np.arange(columns) * 1.0, np.arange(rows) * 1.0)
@@ -88,7 +88,7 @@ def test_an_end_on_the_border_slides_along_it(k):
 
 
 @pytest.mark.parametrize("k", [0, 1])
-def test_reversal_and_rigid_motion(realistic, k, rng):
+def test_reversal_and_rigid_motion_change_nothing(realistic, k, rng):
     mesh, chain = realistic_chain(realistic)
     base = optimize(mesh, chain, refinement=k)
     backwards = optimize(mesh, chain[::-1].copy(), refinement=k)
@@ -98,7 +98,7 @@ def test_reversal_and_rigid_motion(realistic, k, rng):
     assert moved.ratio == pytest.approx(base.ratio, rel=1e-8, abs=1e-12 / base.scales.L0)
 
 
-def test_a_result_can_be_given_again(realistic):
+def test_result_can_be_given_again(realistic):
     mesh, chain = realistic_chain(realistic)
     first = optimize(mesh, chain, refinement=1)
     options = mrc.Options(flow="harmonic", width=3, refinement=1, ends="vertices")

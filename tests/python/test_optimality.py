@@ -116,7 +116,7 @@ def close(one, two, scale=0.0):
 
 
 @pytest.mark.parametrize(("family", "seed"), CASES)
-def test_result_equals_enumeration(family, seed):
+def test_optimum_matches_enumeration(family, seed):
     mesh, contour, options, surface, space, brute = affordable_case(family, seed)
     check_search_space(mesh, contour, space, options)
     check_scales(brute, mrc.optimize(surface, contour, options=mrc.Options(**options)).scales)

@@ -28,7 +28,7 @@ def same_answer(one, two, vertices=None):
     )
 
 
-def test_there_are_enough_contours():
+def test_realistic_contours_are_numerous():
     assert len(realistic_contours()) >= 20
     found = [optimize(mesh, contour).status for _, mesh, contour in realistic_contours()]
     assert found.count("improved") >= 15
@@ -102,7 +102,7 @@ def test_triangulation_of_planar_quads_does_not_matter(flow, seed):
         {"flow": "harmonic", "feature_exponent": 0.5, "direction_exponent": 2.0},
     ],
 )
-def test_promises_of_a_result(realistic, options):
+def test_result_keeps_its_guarantees(realistic, options):
     _, mesh, contour = realistic
     surface, options = surface_of(mesh), mrc.Options(**options)
     result = mrc.optimize(surface, contour, options=options)
@@ -129,7 +129,7 @@ def test_promises_of_a_result(realistic, options):
 
 
 @pytest.mark.parametrize("flow", ["gates", "arc_length", "harmonic"])
-def test_result_winds_once_round_its_band(realistic, flow):
+def test_result_winds_once_around_its_band(realistic, flow):
     """Simple, along real edges of the band, with increments that sum to one."""
     _, mesh, contour = realistic
     surface, options = surface_of(mesh), mrc.Options(width=4, flow=flow)
@@ -146,7 +146,7 @@ def test_result_winds_once_round_its_band(realistic, flow):
     assert sum(form[edge] for edge in edges) == pytest.approx(1, abs=1e-9)
 
 
-def test_length_and_positions_of_the_result(realistic):
+def test_result_length_and_positions_match_its_contour(realistic):
     _, mesh, contour = realistic
     surface = surface_of(mesh)
     result = mrc.optimize(surface, contour, options=HARMONIC)
@@ -182,14 +182,14 @@ def test_hiding_faces_outside_the_band_changes_nothing(realistic, rng):
         assert (result.ratio, result.initial_ratio) == (base.ratio, base.initial_ratio)
 
 
-def test_same_bytes_every_time(realistic):
+def test_results_are_reproducible_bit_for_bit(realistic):
     _, mesh, contour = realistic
     surface = surface_of(mesh)
     results = [mrc.optimize(surface, contour, options=HARMONIC) for _ in range(2)] + [optimize(mesh, contour)]
     assert len({(r.vertices.tobytes(), r.positions.tobytes(), r.ratio, tuple(r.history)) for r in results}) == 1
 
 
-def test_iterations_are_single_runs_with_the_first_scales(realistic):
+def test_iterations_equal_single_runs_with_the_first_scales(realistic):
     _, mesh, contour = realistic
     surface = surface_of(mesh)
     once, twice = mrc.Options(width=2, flow="harmonic"), mrc.Options(width=2, flow="harmonic", iterations=2)
@@ -200,7 +200,7 @@ def test_iterations_are_single_runs_with_the_first_scales(realistic):
     assert both.ratio == pytest.approx(second.ratio, rel=1e-12)
 
 
-def test_salience_is_that_of_the_best_found():
+def test_salience_belongs_to_the_best_contour_found():
     """Later iterations that find only worse contours change neither the result nor how far to trust it."""
     options, settled = {"flow": "gates", "width": 8, "length_bias": 2.0, "anchor": 1.0}, 0
     for _, mesh, contour in realistic_contours():
@@ -213,7 +213,7 @@ def test_salience_is_that_of_the_best_found():
 
 
 @pytest.mark.parametrize("flow", ["gates", "arc_length", "harmonic"])
-def test_a_result_along_hidden_faces_is_a_contour_like_any_other(flow):
+def test_result_along_hidden_faces_can_be_given_again(flow):
     """The best ring runs along hidden faces, with something to grow into on one side alone: it can be given again."""
     mesh = meshes.tube([1.3, 1.0, 0.7, 1.0, 1.3], 8)
     surface = surface_of(mesh, hidden_faces=np.arange(16, dtype=np.int32))
@@ -226,7 +226,7 @@ def test_a_result_along_hidden_faces_is_a_contour_like_any_other(flow):
 
 
 @pytest.mark.parametrize("flow", ["gates", "arc_length", "harmonic"])
-def test_no_contour_runs_along_the_border(flow):
+def test_no_result_runs_along_the_mesh_border(flow):
     """The ring at the border has the least ratio, but no part ends there, and nothing can be cut off."""
     mesh = meshes.tube([0.7, 0.7, 1.0, 1.1], 8)
     given = 16 + np.arange(8)
@@ -236,7 +236,7 @@ def test_no_contour_runs_along_the_border(flow):
         mrc.measure(surface_of(mesh), np.arange(8))
 
 
-def test_progress_is_called_and_cancels(realistic):
+def test_progress_is_called_and_can_cancel(realistic):
     _, mesh, contour = realistic
     heard = []
     optimize(mesh, contour, progress=lambda fraction: heard.append(fraction) or True)
@@ -248,7 +248,7 @@ def test_progress_is_called_and_cancels(realistic):
         optimize(mesh, contour, progress=lambda fraction: 1 // 0)
 
 
-def test_progress_has_three_phases_an_iteration(realistic):
+def test_progress_has_three_phases_per_iteration(realistic):
     """Patches, bands and searches; what ends early goes on with the share of the next phase."""
     _, mesh, contour = realistic
     surface, heard = surface_of(mesh), []
@@ -263,7 +263,7 @@ def test_progress_has_three_phases_an_iteration(realistic):
         assert set(phases) <= set(range(total + 1))
 
 
-def test_a_cancel_in_any_phase_changes_nothing(realistic):
+def test_cancelling_in_any_phase_changes_nothing(realistic):
     _, mesh, contour = realistic
     surface, options = surface_of(mesh), mrc.Options(iterations=2)
     shares = []

@@ -80,7 +80,7 @@ def cases(count):
 
 @pytest.mark.parametrize("kind", ["tube", "torus"])
 @cases(24)
-def test_loops_keep_apart_in_any_order_on_any_number_of_threads(kind, seed):
+def test_loops_stay_apart_in_any_order_on_any_number_of_threads(kind, seed):
     rng = np.random.default_rng([seed, len(kind)])
     mesh, contours = loops_in_a_row(rng, kind)
     surface, options = surface_of(mesh), options_for(rng, seed)
@@ -99,7 +99,7 @@ def test_loops_keep_apart_in_any_order_on_any_number_of_threads(kind, seed):
 OPTION_NAMES = [name for name in dir(mrc.Options) if not name.startswith("_")]
 
 
-def test_who_is_not_held_back_finds_what_it_finds_alone():
+def test_contour_not_held_back_finds_what_it_finds_alone():
     free = held = 0
     for seed in range(24):
         rng = np.random.default_rng(seed)
@@ -113,7 +113,7 @@ def test_who_is_not_held_back_finds_what_it_finds_alone():
     assert min(free, held) >= 10
 
 
-def test_alone_they_would_cross():
+def test_contours_optimized_alone_would_cross():
     """Otherwise nothing above would be worth much."""
     crossing = 0
     for seed in range(12):
@@ -127,7 +127,7 @@ def test_alone_they_would_cross():
 
 
 @pytest.mark.parametrize("k", [0, 1])
-def test_one_contour_of_a_list_is_like_one_alone(realistic, k):
+def test_list_of_one_contour_equals_optimize(realistic, k):
     _, mesh, contour = realistic
     surface, options = surface_of(mesh), mrc.Options(iterations=2, refinement=k)
     (listed,) = mrc.optimize_all(surface, [contour], options=options)
@@ -144,7 +144,7 @@ def two_grooves(depths=(0.3, 0.2)):
     return mesh, [r * columns + np.arange(columns, dtype=np.int32) for r in range(rows)]
 
 
-def test_neighbors_that_would_change_places_stay_in_their_order():
+def test_neighbors_that_would_swap_places_keep_their_order():
     """With a required vertex in each other's groove alone, both would pass the other; together neither does."""
     mesh, ring = two_grooves()
     surface, options = surface_of(mesh), mrc.Options(width=12)
@@ -166,7 +166,7 @@ def test_neighbors_that_would_change_places_stay_in_their_order():
     assert together[1].held_back_by == (0,)
 
 
-def test_both_reach_the_same_groove_alone_and_one_together():
+def test_only_one_of_two_contours_gets_the_same_groove():
     """The nearer one gets it; the other stops beside it, and says who is there."""
     mesh, ring = two_grooves((0.0, 0.3))
     surface, options = surface_of(mesh), mrc.Options(width=9, iterations=3)
@@ -205,7 +205,7 @@ def grooved_tube():
 
 
 @pytest.mark.parametrize("k", [0, 1])
-def test_a_contour_does_not_jump_over_one_in_the_same_faces(k):
+def test_contour_does_not_cross_another_in_the_same_faces(k):
     """Alone both would go down to row 5. The upper one has row 6 as its neighbor along edges: below the other one."""
     mesh = grooved_tube()
     surface, options = surface_of(mesh), mrc.Options(width=3, iterations=2, refinement=k)
@@ -223,7 +223,7 @@ def test_a_contour_does_not_jump_over_one_in_the_same_faces(k):
 
 
 @pytest.mark.parametrize("k", [0, 1])
-def test_an_edge_that_another_contour_crosses_is_closed(k):
+def test_edge_crossed_by_another_contour_is_closed(k):
     """A small loop round a vertex of row 6, which the neighbor along edges of a loop round the tube passes."""
     mesh = grooved_tube()
     surface, options = surface_of(mesh), mrc.Options(width=3, iterations=2, refinement=k)
@@ -257,7 +257,7 @@ def network(rng):
 
 @pytest.mark.parametrize("k", [0, 1])
 @cases(9)
-def test_a_network_keeps_its_junctions(k, seed):
+def test_network_keeps_its_junctions(k, seed):
     rng = np.random.default_rng([seed, k])
     mesh, chains = network(rng)
     ends = ("vertices", "edges", "border")[seed % 3]
@@ -270,7 +270,7 @@ def test_a_network_keeps_its_junctions(k, seed):
     assert sum(result.status == "improved" for result in results) >= 1
 
 
-def test_an_end_on_the_border_slides_unless_it_is_shared():
+def test_end_on_the_border_slides_unless_shared():
     rows, columns = 9, 16
     rng = np.random.default_rng(5)
     mesh = meshes.tube(1 + 0.3 * np.cos(np.arange(rows)), columns, step=0.4, rng=rng, split_share=1.0, noise=0.05)
@@ -289,7 +289,7 @@ def test_an_end_on_the_border_slides_unless_it_is_shared():
 # ---- what belongs to each of them
 
 
-def test_one_for_all_or_one_for_each():
+def test_arguments_apply_to_all_contours_or_to_each():
     mesh, ring = two_grooves()
     surface, options = surface_of(mesh), mrc.Options(width=2)
     chain = ring[24][:9].copy()
@@ -323,14 +323,14 @@ def test_contours_may_be_results_and_points_on_edges():
             assert one.objective <= one.initial_objective
 
 
-def test_one_that_lies_along_another_says_who_is_there():
+def test_held_back_by_names_a_contour_along_another():
     mesh, ring = two_grooves()
     results = mrc.optimize_all(surface_of(mesh), [ring[8], ring[8], ring[18]])
     assert [result.held_back_by for result in results] == [(1,), (0,), ()]
     assert [result.status for result in results] == ["unchanged", "unchanged", "improved"]
 
 
-def test_contours_settle():
+def test_joint_iterations_converge():
     """One that goes back to where it was given, since it found nothing concave, wakes nobody up."""
     rows = np.arange(31)
     radius = 1 - 0.3 * np.exp(-(((rows - 10) / 1.2) ** 2)) - 0.01 * np.exp(-((rows - 16.0) ** 2))
@@ -345,11 +345,11 @@ def test_contours_settle():
     assert max(result.statistics["iterations"] for result in few) < 6
 
 
-def test_no_contours():
+def test_empty_list_of_contours_is_legal():
     assert mrc.optimize_all(surface_of(two_grooves()[0]), []) == []
 
 
-def test_given_contours_may_touch_and_stay_where_they_do():
+def test_touching_given_contours_still_touch_only_there():
     mesh, ring = two_grooves()
     # Each takes a step to the ring between them, and back again.
     first = np.r_[ring[8][:6], ring[9][5:8], ring[8][7:]].astype(np.int32)
@@ -358,7 +358,7 @@ def test_given_contours_may_touch_and_stay_where_they_do():
     check_apart(mesh, results, [first, second])
 
 
-def test_progress_is_called_and_cancels_all():
+def test_progress_is_called_and_can_cancel_all():
     mesh, ring = two_grooves()
     surface, options = surface_of(mesh), mrc.Options(iterations=3)
     shares = []
@@ -400,7 +400,7 @@ def test_errors_name_the_contour(change, message):
         bad(**change)
 
 
-def test_wrong_types():
+def test_wrong_types_are_refused():
     for change in ({"contours": [None]}, {"contours": 3}, {"scales": [3, 4]}, {"required_vertices": [["a"], []]}):
         with pytest.raises((TypeError, ValueError)):
             bad(**change)
@@ -409,7 +409,7 @@ def test_wrong_types():
 
 
 @pytest.mark.parametrize("seed", range(0, 64, 2))
-def test_an_edge_between_two_points_that_contours_share_is_neithers(seed):
+def test_edge_between_two_shared_points_is_closed_to_both_contours(seed):
     """Where two given contours part and meet again, both might run straight from the one vertex to the other."""
     rng = np.random.default_rng(seed)
     mesh = meshes.tube(1 + 0.4 * rng.random(11), 8, step=0.5, rng=rng, split_share=1.0, noise=0.1)

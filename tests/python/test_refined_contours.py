@@ -22,14 +22,14 @@ def refined_case(k, seed, **more):
 
 
 @seeds(60)
-def test_optimum_with_one_steiner_point(seed):
+def test_optimum_with_one_steiner_point_matches_the_independent_solver(seed):
     case = refined_case(1, seed)
     check_same_graph(case)
     check_optimum(case)
 
 
 @seeds(60)
-def test_optimum_with_two_steiner_points(seed):
+def test_optimum_with_two_steiner_points_matches_the_independent_solver(seed):
     case = refined_case(2, seed)
     check_same_graph(case)
     check_optimum(case)
@@ -59,7 +59,7 @@ def same_curve(one, two, reverse=False):
     return one == two[start:] + two[:start]
 
 
-def test_more_points_are_no_worse(realistic):
+def test_more_steiner_points_are_never_worse(realistic):
     """The optimum for k = 3 is at most the one for k = 1, expressed with the points of k = 3."""
     _, mesh, contour = realistic
     coarse, fine = optimize(mesh, contour, refinement=1), optimize(mesh, contour, refinement=3)
@@ -87,14 +87,14 @@ def test_results_on_level_grids_are_simple(seed):
     assert crossings(mesh, points, closed=True) == []
 
 
-def test_reversal(realistic):
+def test_reversal_reverses_the_result(realistic):
     _, mesh, contour = realistic
     base, backwards = (optimize(mesh, c, refinement=1) for c in (contour, contour[::-1].copy()))
     assert same_curve(base, backwards, reverse=True)
     assert backwards.ratio == pytest.approx(base.ratio, rel=1e-10)
 
 
-def test_rigid_motion(realistic, rng):
+def test_rigid_motion_changes_nothing(realistic, rng):
     _, mesh, contour = realistic
     base, moved = (optimize(m, contour, refinement=1) for m in (mesh, meshes.rigidly_moved(mesh, rng)))
     assert same_curve(base, moved)
@@ -102,7 +102,7 @@ def test_rigid_motion(realistic, rng):
 
 
 @pytest.mark.parametrize("denominator", ["length", "arcs"])
-def test_scaling(realistic, denominator):
+def test_scaling_divides_the_ratio(realistic, denominator):
     _, mesh, contour = realistic
     size = 37.0
     big = mesh.moved(mesh.positions * size)
@@ -119,7 +119,7 @@ def test_iterations_never_raise_the_objective(realistic):
     assert result.history[-1] == result.objective
 
 
-def test_a_change_of_k_starts_a_new_segment_of_the_history(realistic):
+def test_change_of_k_starts_a_new_segment_of_the_history(realistic):
     _, mesh, contour = realistic
     result = optimize(mesh, contour, width=1, regular_iterations=2, refinement=1, iterations=2)
     regular = optimize(mesh, contour, width=1, iterations=2)
@@ -130,7 +130,7 @@ def test_a_change_of_k_starts_a_new_segment_of_the_history(realistic):
     assert result.history[-1] == result.objective
 
 
-def test_a_result_can_be_given_again_and_never_loses(realistic):
+def test_result_given_again_is_never_worse(realistic):
     _, mesh, contour = realistic
     first = optimize(mesh, contour, width=2, refinement=1)
     surface, options = surface_of(mesh), mrc.Options(flow="harmonic", width=2, refinement=1)
@@ -147,7 +147,7 @@ def test_a_result_can_be_given_again_and_never_loses(realistic):
     assert finer.objective <= finer.initial_objective
 
 
-def test_positions_and_faces_of_the_segments(realistic):
+def test_positions_and_faces_match_the_segments(realistic):
     _, mesh, contour = realistic
     result = optimize(mesh, contour, refinement=2)
     t = result.edge_parameters[:, None]

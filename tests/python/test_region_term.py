@@ -67,7 +67,7 @@ def faces_between(mesh, low, high):
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_line_integral_is_the_enclosed_sum(seed):
+def test_line_integral_equals_the_enclosed_sum(seed):
     rng, mesh = random_tube(seed)
     surface = surface_of(mesh)
     density = rng.uniform(-1.0, 2.0, len(mesh.faces))
@@ -85,7 +85,7 @@ def test_line_integral_is_the_enclosed_sum(seed):
 
 @pytest.mark.parametrize("seed", range(20))
 @pytest.mark.parametrize("k", [0, 1, 2])
-def test_the_result_is_what_measure_says(seed, k):
+def test_result_matches_measure(seed, k):
     """The term of the last iteration's band is the change since the first given contour, whatever the band."""
     rng, mesh = random_tube(100 + seed)
     surface = surface_of(mesh)
@@ -115,7 +115,7 @@ def test_reversing_the_contour_and_the_side_together_changes_nothing(seed, k):
 @pytest.mark.slow
 @pytest.mark.parametrize("k", [0, 1])
 @pytest.mark.parametrize("denominator", ["length", "arcs"])
-def test_scaling_rigid_motion_and_reversal(realistic, k, denominator, rng):
+def test_invariant_under_scaling_rigid_motion_and_reversal(realistic, k, denominator, rng):
     """The density is per area and weighs in units of the scales: it stays when the mesh grows. Reversal takes the side
     along; the other side alone is the other sign."""
     _, mesh, contour = realistic
@@ -139,7 +139,7 @@ def test_scaling_rigid_motion_and_reversal(realistic, k, denominator, rng):
         assert other.ratio * factor == pytest.approx(base.ratio, rel=1e-8)
 
 
-def test_what_is_enclosed_draws_and_repels():
+def test_density_attracts_and_repels():
     """On a plain cylinder nothing but the region term moves a ring: towards what it gains, as far as the band goes."""
     mesh = meshes.tube([1.0] * ROWS, 8)
     surface = surface_of(mesh)
@@ -155,7 +155,7 @@ def test_what_is_enclosed_draws_and_repels():
 
 
 @pytest.mark.parametrize("height", [-0.6, 0.0, 0.5, 0.8])
-def test_on_a_closed_body_all_between_two_contours_is_counted(height):
+def test_everything_between_two_contours_of_a_closed_body_counts(height):
     """However far from both it lies: each contour parts a ball in two."""
     mesh = meshes.icosphere(3)
     surface, low = surface_of(mesh), -0.8
@@ -168,7 +168,7 @@ def test_on_a_closed_body_all_between_two_contours_is_counted(height):
 
 
 @pytest.mark.parametrize("weight", [-0.05, -1.0])
-def test_a_contour_that_crosses_a_closed_body_is_measured_alike(weight):
+def test_measure_agrees_on_a_contour_across_a_closed_body(weight):
     mesh = meshes.icosphere(3)
     groove = np.exp(-(((mesh.positions[:, [2]] - 0.8) / 0.12) ** 2))
     mesh = mesh.moved(mesh.positions * (1 - 0.25 * groove))
@@ -185,7 +185,7 @@ def test_a_contour_that_crosses_a_closed_body_is_measured_alike(weight):
 
 @pytest.mark.parametrize("seed", range(6))
 @pytest.mark.parametrize("k", [0, 1])
-def test_the_numbering_does_not_matter(seed, k):
+def test_numbering_does_not_matter(seed, k):
     rng, mesh = random_tube(seed)
     given, density = meshes.zigzag_contour(rng, COLUMNS, 3, 5), rng.uniform(-1, 1, len(mesh.faces))
     other, number = meshes.renumbered(mesh, rng)
@@ -202,7 +202,7 @@ def test_the_numbering_does_not_matter(seed, k):
     }
 
 
-def test_bad_densities():
+def test_bad_densities_are_refused():
     mesh = meshes.tube([1.0, 0.8, 1.0], 6)
     surface, ring = surface_of(mesh), 6 + np.arange(6)
     for density in (np.ones(3), np.full(len(mesh.faces), np.nan), np.ones((len(mesh.faces), 2))):

@@ -85,12 +85,12 @@ def least_by_enumeration(case):
 
 @pytest.mark.parametrize("side", ["left", "right"])
 @seeds(40)
-def test_regular(side, seed):
+def test_regular_optimum_with_region_matches_enumeration(side, seed):
     case = region_case(0, side, seed)
     check_optimum(case, least_by_enumeration(case))
 
 
 @pytest.mark.parametrize("side", ["left", "right"])
 @seeds(20)
-def test_refined(side, seed):
+def test_refined_optimum_with_region_matches_the_independent_solver(side, seed):
     check_optimum(region_case(1, side, seed))

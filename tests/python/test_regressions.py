@@ -25,7 +25,7 @@ def test_scales_of_another_surface_are_refused():
             call(surface_of(tube()), ring(2), scales=scales)
 
 
-def test_iterations_go_on_after_the_first_feasible_contour():
+def test_iterations_continue_after_the_first_feasible_contour():
     """A wide way from a loop that lacks the required vertex: one iteration with a narrow band is not enough."""
     mesh = meshes.tube([1.0, 1.0, 1.0, 0.9, 0.8, 0.6, 0.8, 1.0], 8, rng=np.random.default_rng(2), noise=0.03)
     surface, wanted = surface_of(mesh), [8 * 2]
@@ -40,7 +40,7 @@ def test_iterations_go_on_after_the_first_feasible_contour():
     assert results[1].objective <= results[0].objective
 
 
-def test_attractors_may_be_an_array_and_bad_ones_are_named():
+def test_attractors_may_be_an_array_and_errors_name_bad_ones():
     surface = surface_of(tube())
     rows = np.array([[3.0, 0.5, 1.0]])
     one, two = (
@@ -53,7 +53,7 @@ def test_attractors_may_be_an_array_and_bad_ones_are_named():
             mrc.optimize(surface, ring(2), attractors=bad)
 
 
-def test_a_contour_through_its_own_edge_is_not_simple():
+def test_contour_through_its_own_edge_is_not_simple():
     mesh = tube(split_share=1.0)
     surface, a, b = surface_of(mesh), 17, 18
     points = [(a, a), (b, b), (b + 8, b + 8), (a, b), (a - 8, b - 8)]
@@ -61,7 +61,7 @@ def test_a_contour_through_its_own_edge_is_not_simple():
         mrc.measure(surface, edge_vertices=points, edge_parameters=[0, 0, 0, 0.5, 0], closed=False)
 
 
-def test_one_point_written_from_both_ends_of_its_edge_is_one_point():
+def test_point_given_from_either_end_of_its_edge_is_the_same():
     surface = surface_of(tube())
     points, parameters = [(16, 16), (16, 17), (17, 16), (17, 17)], [0, 0.1, 0.9, 0]
     with pytest.raises(ValueError, match="twice"):
@@ -69,7 +69,7 @@ def test_one_point_written_from_both_ends_of_its_edge_is_one_point():
 
 
 @pytest.mark.parametrize("size", [1e200, 1e51, 1e-200, 1e-310])
-def test_numbers_beyond_range_are_refused(size):
+def test_overflowing_numbers_are_refused(size):
     mesh = tube()
     with pytest.raises(ValueError, match="scale the mesh|length 0"):
         mrc.optimize(mrc.Surface(np.asarray(mesh.positions) * size, *face_arrays(mesh)), ring(2))
@@ -81,7 +81,7 @@ def face_arrays(mesh):
 
 
 @pytest.mark.parametrize("k", [0, 1])
-def test_along_an_edge_the_left_face_holds_the_segment(k):
+def test_segment_along_an_edge_belongs_to_the_left_face(k):
     mesh = tube()
     result = mrc.optimize(surface_of(mesh), ring(2), options=mrc.Options(refinement=k, iterations=0 if k == 0 else 1))
     ends, count = result.edge_vertices, len(result.edge_vertices)
@@ -96,14 +96,14 @@ def test_along_an_edge_the_left_face_holds_the_segment(k):
     assert set(result.segment_faces.tolist()) <= left
 
 
-def test_a_mask_of_hidden_faces_has_an_entry_for_each_face():
+def test_mask_of_hidden_faces_has_one_entry_per_face():
     mesh = tube()
     for mask in (np.zeros(3, bool), np.zeros((3, 2), bool)):
         with pytest.raises(ValueError, match="mask"):
             mrc.Surface(mesh.positions, *face_arrays(mesh), hidden_faces=mask)
 
 
-def test_a_refined_result_along_hidden_faces_can_be_given_again():
+def test_refined_result_along_hidden_faces_can_be_given_again():
     mesh = meshes.tube([1.3, 1.0, 0.7, 1.0, 1.3], 8)
     surface = surface_of(mesh, hidden_faces=np.arange(16, dtype=np.int32))
     options = mrc.Options(width=2, refinement=1)
@@ -112,7 +112,7 @@ def test_a_refined_result_along_hidden_faces_can_be_given_again():
     assert again.objective <= first.objective + 1e-12
 
 
-def test_an_open_refined_contour_may_begin_inside_an_edge():
+def test_open_refined_contour_may_begin_inside_an_edge():
     surface = surface_of(tube(split_share=1.0))
     points = [(16, 17), (17, 17), (18, 18), (19, 19)]
     for k in (0, 1, 2):
@@ -126,12 +126,12 @@ def test_an_open_refined_contour_may_begin_inside_an_edge():
         assert result.status in ("improved", "unchanged")
 
 
-def test_requirements_that_nothing_was_done_for_are_an_error():
+def test_unmet_requirements_without_iterations_are_an_error():
     with pytest.raises(mrc.Infeasible, match="no iteration"):
         mrc.optimize(surface_of(tube()), ring(2), options=mrc.Options(iterations=0), required_vertices=[0])
 
 
-def test_a_phase_across_faces_never_ends_above_the_given_contour():
+def test_refined_phase_never_ends_above_the_given_contour():
     for seed in range(40):
         rng = np.random.default_rng(seed)
         mesh = meshes.tube(rng.uniform(0.7, 1.3, 6), 7, step=0.5, rng=rng, noise=0.1, split_share=0.5)
@@ -142,12 +142,12 @@ def test_a_phase_across_faces_never_ends_above_the_given_contour():
 
 
 @pytest.mark.parametrize("answer", [False, np.bool_(False), 0])
-def test_any_false_answer_cancels(answer):
+def test_any_falsy_progress_result_cancels(answer):
     assert mrc.optimize(surface_of(tube()), ring(3), progress=lambda share: answer).status == "cancelled"
     assert mrc.optimize(surface_of(tube()), ring(3), progress=lambda share: None).status != "cancelled"
 
 
-def test_a_refined_contour_across_barriers_at_a_vertex_is_refused():
+def test_refined_contour_across_barriers_at_a_vertex_is_refused():
     mesh, here = tube(), ring(2)
     after = np.roll(here, -1)
     # Every vertex, then the middle of the edge behind it.
@@ -161,7 +161,7 @@ def test_a_refined_contour_across_barriers_at_a_vertex_is_refused():
 
 
 @pytest.mark.parametrize("k", [1, 2])
-def test_whole_surface_refined_works_round_the_regular_result(k):
+def test_refined_whole_surface_search_follows_the_regular_result(k):
     """Not on the whole surface, whose refined graph would be large: first along edges on all of it, then in a band."""
     rows = np.arange(30)
     mesh = meshes.tube(1 - 0.3 * np.exp(-((rows - 22.3) ** 2)), 16, step=0.3)
@@ -173,7 +173,7 @@ def test_whole_surface_refined_works_round_the_regular_result(k):
     assert result.statistics["faces"] == 2 * 4 * 16
 
 
-def test_a_contour_that_runs_along_a_barrier_and_leaves_on_its_other_side_is_refused():
+def test_contour_that_changes_sides_along_a_barrier_is_refused():
     mesh = meshes.tube([1.0] * 9, 12, step=0.5)
     grid = np.arange(9 * 12).reshape(9, 12)
     barrier = [(int(grid[4, c]), int(grid[4, c + 1])) for c in range(2, 7)]
@@ -189,7 +189,7 @@ def test_a_contour_that_runs_along_a_barrier_and_leaves_on_its_other_side_is_ref
 
 @pytest.mark.parametrize("flow", ["harmonic", "gates", "arc_length"])
 @pytest.mark.parametrize("k", [0, 1])
-def test_what_random_barriers_leave_is_searched_and_never_crossed(flow, k):
+def test_random_barriers_are_never_crossed(flow, k):
     """Barriers on the contour and around it. A result that crossed one could not be given again."""
     searched = 0
     for seed in range(30):
@@ -216,7 +216,7 @@ def test_what_random_barriers_leave_is_searched_and_never_crossed(flow, k):
     assert searched >= 20
 
 
-def test_curvature_where_vertices_lie_just_on_the_disk():
+def test_curvature_with_vertices_exactly_on_the_disk_boundary():
     """A disk that a corner of a triangle just touches holds nothing of that triangle, not all of its own circle."""
     sphere = meshes.icosphere(2)
     lengths = np.linalg.norm(np.diff(sphere.positions[sphere.real_edges()], axis=1)[:, 0], axis=1)
@@ -227,7 +227,7 @@ def test_curvature_where_vertices_lie_just_on_the_disk():
             assert np.abs(curvature.kappa_max - 1).max() < 0.3
 
 
-def test_the_bound_is_not_above_a_given_contour_that_is_returned_at_the_end():
+def test_lower_bound_is_not_above_a_returned_given_contour():
     """What was won along mesh edges is lost where it is measured with Steiner points."""
     mesh, contour = torus(np.random.default_rng(353))
     options = mrc.Options(width=3, refinement=2, regular_iterations=1, iterations=0)
@@ -236,7 +236,7 @@ def test_the_bound_is_not_above_a_given_contour_that_is_returned_at_the_end():
     assert result.lower_bound <= result.objective == result.initial_objective
 
 
-def test_an_answer_without_truth_is_an_error():
+def test_progress_result_without_truth_value_is_an_error():
     """An array of several is neither yes nor no."""
     with pytest.raises(ValueError, match="truth"):
         mrc.optimize(surface_of(tube()), ring(3), progress=lambda share: np.zeros(2))
@@ -245,19 +245,19 @@ def test_an_answer_without_truth_is_an_error():
 
 
 @pytest.mark.parametrize("name", ["anchor", "crease", "region_weight", "min_salience", "kappa0_factor", "length_bias"])
-def test_weights_whose_products_are_no_numbers_are_refused(name):
+def test_weights_with_overflowing_products_are_refused(name):
     with pytest.raises(ValueError, match=f"{name}.*1e\\+50"):
         mrc.Options(**{name: 1e300})
 
 
 @pytest.mark.parametrize("name", ["feature_exponent", "direction_exponent"])
-def test_exponents_whose_powers_are_no_numbers_are_refused(name):
+def test_exponents_with_overflowing_powers_are_refused(name):
     mrc.Options(**{name: 16})
     with pytest.raises(ValueError, match=f"{name}.*16"):
         mrc.Options(**{name: 17})
 
 
-def test_progress_does_not_fall_for_any_number_of_iterations():
+def test_progress_never_decreases_for_any_number_of_iterations():
     shares = []
     options = mrc.Options(iterations=2**31 - 1, regular_iterations=2**31 - 1)
     mrc.optimize(surface_of(tube()), ring(3), options=options, progress=shares.append)

@@ -19,14 +19,14 @@ def checked_space(mesh, contour, options, **keywords):
 
 @pytest.mark.parametrize("flow", FLOWS)
 @pytest.mark.parametrize("width", [1, 5])
-def test_realistic_bands(realistic, flow, width):
+def test_bands_of_realistic_contours(realistic, flow, width):
     _, mesh, contour = realistic
     space = checked_space(mesh, contour, {"width": width, "flow": flow})
     assert len(space["faces"]) > 0
 
 
 @pytest.mark.parametrize("flow", FLOWS)
-def test_whole_surfaces(flow):
+def test_bands_of_whole_surfaces(flow):
     """Grown until topology stops it: closed, noisy, with two borders, with a deep palm."""
     for name, mesh, contour in realistic_contours()[::5]:
         space = checked_space(mesh, contour, {"width": None, "flow": flow})
@@ -47,7 +47,7 @@ def test_bands_of_mixed_polygons(flow, seed):
 
 
 @pytest.mark.parametrize("width", [1, 2, 3])
-def test_regular_quads_give_whole_rings(width):
+def test_bands_on_regular_quads_are_whole_rings(width):
     mesh = meshes.tube(np.ones(11), 8)
     space = checked_space(mesh, 5 * 8 + np.arange(8, dtype=np.int32), {"width": width, "flow": "harmonic"})
     assert sorted(space["faces"].tolist()) == list(range((5 - width) * 8, (5 + width) * 8))
@@ -56,7 +56,7 @@ def test_regular_quads_give_whole_rings(width):
         assert side * number == rows[v] - 5
 
 
-def test_left_is_left():
+def test_left_side_of_the_band_is_left_of_the_contour():
     """Seen from outside, the left of a loop that runs to the right is above it."""
     mesh = meshes.tube(np.ones(7), 8)
     space = checked_space(mesh, 3 * 8 + np.arange(8, dtype=np.int32), {"width": 1})
@@ -65,14 +65,14 @@ def test_left_is_left():
 
 
 @pytest.mark.parametrize("flow", FLOWS)
-def test_band_on_a_torus_stays_an_annulus(flow, rng):
+def test_band_on_a_torus_remains_an_annulus(flow, rng):
     mesh = meshes.torus(12, 16, rng=rng, noise=0.02, split_share=0.5)
     for width in (3, 6, 20, None):
         checked_space(mesh, 4 * 16 + np.arange(16, dtype=np.int32), {"width": width, "flow": flow})
 
 
 @pytest.mark.parametrize("flow", FLOWS)
-def test_band_shrinks_onto_a_tip(flow, rng):
+def test_rings_of_a_band_shrink_towards_a_tip(flow, rng):
     """Near the tip of a finger one side has less and less to grow into."""
     mesh, _ = meshes.finger(rng)
     loops = [loop for height in (3.6, 4.2, 4.4, 4.5) for loop in meshes.plane_contours(mesh, [0, 0, 1], height)]
@@ -82,7 +82,7 @@ def test_band_shrinks_onto_a_tip(flow, rng):
 
 
 @pytest.mark.parametrize("flow", FLOWS)
-def test_irregular_edges_stop_the_band(flow):
+def test_non_manifold_edges_stop_the_band(flow):
     """A fin on a tube makes edges of three faces; a flipped face disagrees with its neighbors."""
     tube = meshes.tube(np.ones(11), 8)
     fin = ((7 * 8, 7 * 8 + 1, 88, 89),)

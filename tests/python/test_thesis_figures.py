@@ -86,7 +86,7 @@ def shortest_loop(mesh, faces):
 
 
 @pytest.mark.parametrize("name", figures.FIGURES)
-def test_a_figure_is_a_sound_mesh_and_always_the_same(name):
+def test_figures_are_sound_and_reproducible_meshes(name):
     figure, again = figures.FIGURES[name](), figures.FIGURES[name]()
     assert np.array_equal(figure.positions, again.positions)
     assert figure.faces == again.faces
@@ -111,7 +111,7 @@ def wound_outward(figure, directed):
 
 @all_flows
 @pytest.mark.parametrize("name", figures.FIGURES)
-def test_every_search_of_a_figure_finds_something_better(name, flow):
+def test_every_search_of_a_figure_improves_its_contour(name, flow):
     for result in results(name, flow)[2].values():
         assert result.status == "improved"
         assert result.objective < result.initial_objective
@@ -133,7 +133,7 @@ def test_1_1_every_start_on_the_finger_gives_the_base(flow):
 
 
 @all_flows
-def test_1_1_near_the_tip_a_contour_does_not_vanish(flow):
+def test_1_1_contour_near_the_tip_does_not_vanish(flow):
     """What shortens a contour there moves it up, to nothing. In a band that does not hold the base it goes down
     instead, round after round, or stays."""
     figure, mesh, found = results("1.1", flow)
@@ -160,7 +160,7 @@ def fragments():
     return figure, mesh, curves
 
 
-def test_3_3_the_shortest_completion_has_the_least_ratio(fragments):
+def test_3_3_shortest_completion_has_the_least_ratio(fragments):
     figure, mesh, curves = fragments
     surface, options = surface_of(mesh), mrc.Options(**figure.searches[0].options)
     scales = mrc.optimize(surface, curves[0], closed=False, options=options).scales
@@ -180,7 +180,7 @@ def test_3_3_the_shortest_completion_has_the_least_ratio(fragments):
 
 @all_flows
 @pytest.mark.parametrize("ends", ["edges", "vertices"])
-def test_3_3_the_search_returns_the_shortest_completion(flow, ends, fragments):
+def test_3_3_search_returns_the_shortest_completion(flow, ends, fragments):
     figure, mesh, curves = fragments
     for search in figure.searches:
         assert run(figure, mesh, search, flow, ends=ends).vertices.tolist() == curves[0].tolist()
@@ -207,7 +207,7 @@ def turning(mesh, result):
 
 @all_flows
 @pytest.mark.parametrize("seed", range(50, 53))
-def test_5_1_refined_contours_turn_less_and_stay_near(flow, seed):
+def test_5_1_refined_contours_turn_less_and_stay_close(flow, seed):
     figure, mesh = mesh_of("5.1", seed=seed)
     regular, one, two = (run(figure, mesh, search, flow) for search in figure.searches)
     assert turning(mesh, regular) > turning(mesh, one) > turning(mesh, two)
@@ -224,7 +224,7 @@ def test_5_1_refined_contours_turn_less_and_stay_near(flow, seed):
 
 @all_flows
 @pytest.mark.parametrize("seed", range(3))
-def test_5_2_a_loop_half_way_up_a_finger_goes_to_its_base(flow, seed):
+def test_5_2_loop_halfway_up_a_finger_moves_to_its_base(flow, seed):
     """The finger's diameter only shrinks towards the tip, so a snake would slip off over it, and so does the shortest
     loop of the same band. The base ring is the profile's only concave corner, marked when the mesh is made."""
     rng = np.random.default_rng(seed)
@@ -247,7 +247,7 @@ def test_5_2_a_loop_half_way_up_a_finger_goes_to_its_base(flow, seed):
 
 
 @all_flows
-def test_5_2_then_refined(flow):
+def test_5_2_refinement_stays_at_the_base(flow):
     figure, mesh, found = results("5.2", flow)
     regular, refined = found.values()
     base = mesh.positions[figure.truths[0]]
@@ -257,7 +257,7 @@ def test_5_2_then_refined(flow):
 
 
 @all_flows
-def test_5_2_a_slanted_groove_on_regular_quads_is_found(flow):
+def test_5_2_finds_a_slanted_groove_on_regular_quads(flow):
     """In the harmonic flow all edges across are level: without level edges no contour could leave its ring. The quads
     are sheared where the groove crosses them, so that the stairs along it turn by a little more than a right angle."""
     rows, columns, slope = 61, 64, 0.5
@@ -278,7 +278,7 @@ def test_5_2_a_slanted_groove_on_regular_quads_is_found(flow):
 
 
 @all_flows
-def test_5_3_a_wider_band_finds_the_deeper_ring(flow):
+def test_5_3_wider_band_finds_the_deeper_ring(flow):
     figure, mesh, found = results("5.3", flow)
     edge, surface = mean_edge(mesh), surface_of(mesh)
     for search, ring, other in zip(figure.searches, figure.truths, figure.truths[::-1]):
@@ -303,7 +303,7 @@ def front(points):
 
 
 @all_flows
-def test_5_4_a_narrow_band_stops_in_every_groove(flow):
+def test_5_4_narrow_band_stops_in_every_groove(flow):
     """A jagged contour along a groove settles in it, and then there is nothing better within reach: a local minimum."""
     figure, mesh = mesh_of("5.4")
     surface, edge = surface_of(mesh), mean_edge(mesh)
@@ -318,7 +318,7 @@ def test_5_4_a_narrow_band_stops_in_every_groove(flow):
 
 
 @all_flows
-def test_5_4_a_wide_band_jumps_over_them_to_the_waist(flow):
+def test_5_4_wide_band_crosses_the_grooves_to_the_waist(flow):
     figure, mesh, found = results("5.4", flow)
     narrow, wide = found.values()
     edge, start = mean_edge(mesh), mesh.positions[figure.searches[0].given][:, 2]
@@ -338,7 +338,7 @@ def off_groove(points):
 
 @all_flows
 @pytest.mark.parametrize("side", ["left", "right"])
-def test_5_5_each_iteration_is_better_until_it_settles_in_the_groove(side, flow):
+def test_5_5_iterations_improve_until_they_converge_in_the_groove(side, flow):
     figure, mesh = mesh_of("5.5")
     search = next(s for s in figure.searches if s.title == f"{side}, refined")
     five = run(figure, mesh, search, flow, regular_iterations=0, refinement=0, iterations=5)
@@ -356,7 +356,7 @@ def test_5_5_each_iteration_is_better_until_it_settles_in_the_groove(side, flow)
 
 
 @all_flows
-def test_5_5_the_searches_show_the_iterations(flow):
+def test_5_5_searches_show_the_iterations(flow):
     """Each picture's result is the one of a single run after so many iterations; the first does not get there."""
     figure, _, found = results("5.5", flow)
     whole = found["after 5"].history
@@ -394,7 +394,7 @@ def test_5_6_three_vertices_hold_the_contour_on_the_chin(flow):
 
 @all_flows
 @pytest.mark.parametrize("ends", ["edges", "vertices"])
-def test_5_7_an_open_curve_finds_the_hairline(flow, ends):
+def test_5_7_open_curve_finds_the_hairline(flow, ends):
     figure, mesh = mesh_of("5.7")
     search, edge = figure.searches[0], mean_edge(mesh)
     given, line = mesh.positions[search.given], mesh.positions[figure.truths[0]]
@@ -413,7 +413,7 @@ def edge_count(mesh, faces):
 
 @all_flows
 @pytest.mark.parametrize("k", [0, 1, 2, 3])
-def test_table_5_1_nodes_and_arcs(k, flow):
+def test_table_5_1_numbers_of_nodes_and_arcs(k, flow):
     """Of a triangle's 6k^2 + 12k + 6 directed chords 6k(k + 1) cross it, and 2(k + 1) lie on each edge, shared with the
     neighbor. One direction of each rises in the flow and is a node: 3k(k + 1) for each face and k + 1 for each edge.
     By this the thesis's horse, with 979 faces and 1356 edges (it counts none on the band's border), has 8586 nodes for

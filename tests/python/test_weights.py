@@ -53,12 +53,12 @@ def check(case):
 
 @pytest.mark.parametrize("kind", ["anchor", "crease", "clamp", "ridge", "attractors", "arcs"])
 @seeds(60)
-def test_one_weight(kind, seed):
+def test_one_weight_matches_the_independent_solver(kind, seed):
     check(weighted_case([kind], (0, 0, 1)[seed % 3], seed))
 
 
 @seeds(20)
-def test_several_weights(seed):
+def test_several_weights_match_the_independent_solver(seed):
     rng = np.random.default_rng(seed)
     kinds = ["anchor", "crease", "clamp", "ridge", "attractors", "arcs"]
     check(weighted_case(list(rng.permutation(kinds)[: rng.integers(2, 6)]), (0, 1, 0, 2)[seed % 4], seed))
@@ -84,7 +84,7 @@ def optimize(mesh, contour, pulls, scale=1.0, **options):
 
 @pytest.mark.parametrize("k", [0, 1])
 @pytest.mark.parametrize("denominator", ["length", "arcs"])
-def test_scaling_rigid_motion_and_reversal(realistic, k, denominator, rng):
+def test_invariant_under_scaling_rigid_motion_and_reversal(realistic, k, denominator, rng):
     """The attractors' radius and sigma scale along, band_distance is relative and stays."""
     _, mesh, contour = realistic
     size, far = 41.0, float(np.ptp(mesh.positions)) / 3
@@ -118,7 +118,7 @@ def test_band_distance_is_in_average_radii():
     assert cut >= 20
 
 
-def test_measure_is_the_result_after_iterations(realistic):
+def test_measure_matches_the_result_after_iterations(realistic):
     _, mesh, contour = realistic
     pulls = [(int(contour[0]), 1.0, 1.5)]
     for more in ({}, {"refinement": 2}, {"refinement": 1, "regular_iterations": 2}):
@@ -129,7 +129,7 @@ def test_measure_is_the_result_after_iterations(realistic):
         assert again.objective == pytest.approx(result.objective, rel=1e-12)
 
 
-def test_attraction_and_repulsion(realistic):
+def test_stronger_attractors_never_attract_less(realistic):
     """A stronger attractor never takes the contour farther from where it is felt."""
     _, mesh, contour = realistic
     surface, options = surface_of(mesh), mrc.Options(flow="harmonic", width=3)
@@ -149,7 +149,7 @@ def test_attraction_and_repulsion(realistic):
     assert (np.diff(amounts) >= -1e-12 * max(map(abs, amounts))).all()
 
 
-def test_a_whole_painted_mesh_pulls_only_where_it_is_felt(realistic):
+def test_attractors_out_of_reach_change_nothing(realistic):
     """Attractors that no place of the band feels change no bit, wherever they stand among those that are felt."""
     _, mesh, contour = realistic
     radius = float(np.ptp(mesh.positions)) / 30
@@ -179,7 +179,7 @@ def inside_out(mesh):
 
 @pytest.mark.parametrize("k", [0, 1])
 @pytest.mark.parametrize("features", [("ridge", "valley"), ("valley", "ridge")])
-def test_a_ridge_is_a_valley_of_the_other_side(realistic, features, k):
+def test_ridge_is_a_valley_seen_from_the_other_side(realistic, features, k):
     _, mesh, contour = realistic
     one, two = (
         mrc.optimize(surface_of(m), contour, options=mrc.Options(flow="harmonic", feature=feature, refinement=k))
