@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The minimum ratio contour by enumeration, as an independent check of the native module.
 
-Takes a mesh, a given closed contour, the options, and of the module only the flow's increments on the band; all else
-(scales, curvature, energy, admissible turns, levels, the contours themselves) is computed here, plainly and slowly,
-from the equations of Clements (2006). Shares no line with the module. For small meshes.
-"""
+It takes a mesh, a given closed contour and the options. The only input from the module is the increments of the flow on
+the band. Everything else (scales, curvature, energy, admissible turns, levels, and the contours themselves) is computed
+here, simply and slowly, from the equations of Clements (2006). It shares no code with the module, and is meant for
+small meshes. """
 
 from collections import defaultdict
 from dataclasses import dataclass
@@ -27,9 +27,9 @@ DEFAULTS = {
     "iterations": 1,
 }
 SIZE_RINGS = 4  # the scales are taken within this many edges of the contour
-NOTHING = 1e-4  # curvatures below this over h count as 0, differences as umbilic
+NOTHING = 1e-4  # curvatures below this / h count as 0, and principal curvatures that differ by less as umbilic
 TURN_TOLERANCE = 1e-6
-LEVEL = 1e-9  # increments below this join vertices into one level
+LEVEL = 1e-9  # vertices joined by an edge with a smaller increment are on one level
 
 
 def edges_of(loop):
@@ -49,8 +49,8 @@ def sector(u, w, radius):
 
 
 def line_in_ball(p, q, radius):
-    """The parameters between which the segments p q (rows, seen from the center) lie in a ball; two equal numbers, 0 or
-    1, where nothing does."""
+    """The parameters between which the segments pq (rows, relative to the center) lie in a ball. Both are 0 or both 1
+    where no part of a segment does."""
     d = q - p
     a, b, c = (d * d).sum(axis=-1), (p * d).sum(axis=-1), (p * p).sum(axis=-1) - radius**2
     root = b * b - a * c
@@ -65,15 +65,15 @@ def line_in_ball(p, q, radius):
 
 
 def area_in_disk(corners, radius):
-    """Area of flat triangles (n, 3, 2) inside disks of the given radii (n) round the origin: signed sectors outside,
-    triangles inside."""
+    """The area of flat triangles (n, 3, 2) inside disks of the given radii (n) around the origin: signed sectors
+    outside the disk, triangles inside."""
     total = np.zeros(len(corners))
     for i in range(3):
         p, q = corners[:, i], corners[:, (i + 1) % 3]
         start, end = line_in_ball(p, q, radius)
         enter, leave = p + start[:, None] * (q - p), p + end[:, None] * (q - p)
         inside = end > start
-        # No sector at an end that lies inside: rounding would give it any angle where it lies at the origin.
+        # No sector at an end inside the disk: at the origin, rounding would give it an arbitrary angle.
         before = np.where(start > 0, sector(p, enter, radius), 0.0)
         after = np.where(end < 1, sector(leave, q, radius), 0.0)
         within = before + 0.5 * cross(enter, leave) + after
@@ -82,7 +82,7 @@ def area_in_disk(corners, radius):
 
 
 def area_in_ball(corners, radius):
-    """Area of triangles in space (n, 3, 3) inside a ball round the origin."""
+    """The area of triangles in space (n, 3, 3) inside a ball around the origin."""
     side, other = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     normal = np.cross(side, other)
     size = np.linalg.norm(normal, axis=1)
@@ -100,7 +100,7 @@ def area_in_ball(corners, radius):
 
 
 class Geometry:
-    """A mesh's adjacency, lengths, normals and areas."""
+    """The adjacency, lengths, normals and areas of a mesh."""
 
     def __init__(self, mesh):
         self.mesh, self.x = mesh, mesh.positions
@@ -114,7 +114,8 @@ class Geometry:
         self._triangles()
 
     def _polygons(self):
-        """Vertex areas: equal shares of each polygon's. Vertex normals: polygon normals weighted by corner angle."""
+        """Vertex areas: each polygon's area divided equally among its vertices. Vertex normals: polygon normals
+        weighted by corner angle."""
         self.area, self.normal = np.zeros(len(self.x)), np.zeros((len(self.x), 3))
         for face in self.mesh.faces:
             p = self.x[list(face)]
@@ -145,7 +146,7 @@ class Geometry:
         self.bend = {edge: self._bend(pair, vectors) for edge, pair in self.at_edge.items()}
 
     def _bend(self, pair, vectors):
-        """beta of eq. 3.4: the signed angle between the two triangles' normals, positive where convex."""
+        """beta of eq. 3.4: the signed angle between the normals of the two triangles, positive where convex."""
         if len(pair) != 2:
             return 0.0
         (one, (a, b)), (two, _) = pair
@@ -157,7 +158,7 @@ class Geometry:
         return float(np.arctan2(np.cross(n1, n2) @ along / length, n1 @ n2))
 
     def distances(self, sources, limit=inf):
-        """Shortest paths over real edges."""
+        """Lengths of shortest paths along real edges."""
         found, queue = {}, [(0.0, int(v)) for v in sources]
         while queue:
             d, v = heappop(queue)
@@ -183,7 +184,7 @@ class Geometry:
         return sum(lengths) / len(lengths)
 
     def disk_tensor(self, v, radius):
-        """Eq. 3.4 at a vertex. The disk B is the part of the triangulated surface in the ball that hangs together with
+        """Eq. 3.4 at a vertex. The disk B is the part of the triangulated surface inside the ball that is connected to
         the vertex."""
         center = self.x[v]
         start, end = line_in_ball(*(self.x[self.edge_ends] - center).transpose(1, 0, 2), radius)
@@ -219,7 +220,7 @@ class Curvature:
 
 
 class Curvatures:
-    """Principal curvatures and directions (thesis 3.4) at a given h, computed where asked for."""
+    """Principal curvatures and directions (thesis 3.4) at a given h, computed on demand."""
 
     def __init__(self, geometry, h, options):
         self.geometry, self.h = geometry, h
@@ -232,10 +233,10 @@ class Curvatures:
         return self._tensor[v]
 
     def smoothed(self, v):
-        """Term by term, with Gaussian weights of the distance over real edges, cut at 3 sigma."""
+        """The tensor smoothed with Gaussian weights of the distance along real edges, cut off at 3 sigma."""
         if self.sigma == 0:
             return self.tensor(v)
-        # On regular grids vertices lie at 3 sigma exactly: rounding must not decide about them.
+        # On regular grids, vertices lie at exactly 3 sigma: rounding must not decide whether they count.
         near = self.geometry.distances([v], 3 * self.sigma * (1 + 1e-9))
         weights = {w: np.exp(-d * d / (2 * self.sigma**2)) for w, d in near.items()}
         return sum(weight * self.tensor(w) for w, weight in weights.items()) / sum(weights.values())
@@ -248,7 +249,7 @@ class Curvatures:
             basis = np.stack([x_axis, np.cross(normal, x_axis)])
             values, vectors = np.linalg.eigh(basis @ self.smoothed(v) @ basis.T)
             directions = vectors.T @ basis
-            # beta e e^T has its eigenvector along the crease, but the curvature is the one across it: swap them.
+            # The eigenvector of beta e e^T is along the crease, but its curvature is the one across it: swap them.
             self._found[v] = Curvature(values[0], values[1], directions[1], directions[0])
         return self._found[v]
 
@@ -271,12 +272,12 @@ class Energy:
         self.kappa_0 = self.options["kappa0_factor"] * self.scale
 
     def feature_curvature(self, v):
-        """Negative where there is a feature: kappa_min, or for ridges -kappa_max; tiny ones count as 0."""
+        """kappa_min, or -kappa_max for ridges: negative where there is a feature. Tiny values count as 0."""
         kappa = -self.curvatures[v].kappa_max if self.ridge else self.curvatures[v].kappa_min
         return kappa if abs(kappa) >= NOTHING / self.h else 0.0
 
     def projected(self, a, b, v):
-        """The edge ab in the tangent plane of v."""
+        """The edge ab projected onto the tangent plane of v."""
         normal, edge = self.geometry.normal[v], self.geometry.x[b] - self.geometry.x[a]
         return edge - (edge @ normal) * normal
 
@@ -319,7 +320,7 @@ class Energy:
 
 
 def signed_ranks(geometry, contour, band_faces):
-    """Distance from the contour over real edges, positive on its left: the band is walked from the faces there."""
+    """The distance from the contour along real edges, positive on its left, which is flooded from the faces there."""
     contour = [int(v) for v in contour]
     distance = geometry.distances(contour)
     fence = set(edges_of(contour))
@@ -337,7 +338,7 @@ def signed_ranks(geometry, contour, band_faces):
 
 
 class Levels:
-    """The flow on the band as values modulo 1, one for each class of vertices that level real edges join."""
+    """The flow on the band as values modulo 1, one for each class of vertices joined by level real edges."""
 
     def __init__(self, geometry, space):
         self.real = {}
@@ -351,7 +352,7 @@ class Levels:
         sums = defaultdict(list)
         for v, name in self.name.items():
             sums[name].append(value[v])
-        # Members differ by rounding: measure them from the first one, so that no member wraps round from 1 to 0.
+        # Members differ by rounding errors: measure them from the first, so that none wraps around from 1 to 0.
         mean = {name: of[0] + sum(self.nearest(x - of[0]) for x in of) / len(of) for name, of in sums.items()}
         self.value = {v: mean[self.name[v]] for v in value}
         self._increments(value)
@@ -386,7 +387,7 @@ class Levels:
         return value
 
     def _increments(self, value):
-        """The increments between class values; an edge inside a class is level."""
+        """Sets increments to the differences of class values; an edge inside a class is level."""
         for a, b in list(self.real):
             shift = self.nearest(self.value[b] - value[b]) - self.nearest(self.value[a] - value[a])
             self.real[a, b] = 0.0 if self.name[a] == self.name[b] else self.real[a, b] + shift
@@ -409,7 +410,7 @@ class BruteForce:
         tiny = 1e-12 * self.energy.length
         faces = self.energy.geometry.left_face
         for (a, b), increment in self.levels.real.items():
-            if (a, b) not in faces or (b, a) not in faces:  # on the border of the mesh, where no part ends
+            if (a, b) not in faces or (b, a) not in faces:  # on the mesh border, where no contour runs
                 continue
             climb = self.rank[b] - self.rank[a]
             if self.levels.name[a] == self.levels.name[b]:
@@ -432,7 +433,7 @@ class BruteForce:
                     self.arcs[i].append((j, *self.energy.arc(a, b, c)))
 
     def crossing(self):
-        """The nodes that cross one level, which goes through no vertex: the one in the middle of the widest gap."""
+        """The nodes that cross one level through no vertex: the level in the middle of the widest gap."""
         values = sorted({value - floor(value) for value in self.levels.value.values()})
         gaps = [(following - value, value) for value, following in pairwise([*values, values[0] + 1])]
         gap, value = max(gaps)
@@ -459,20 +460,20 @@ class BruteForce:
                         stack.append((following, (*path, self.nodes[following][0]), f + arc_f, g + arc_g))
 
     def count(self):
-        """The number of closed contours, by dynamic programming, to tell whether enumeration is affordable."""
+        """The number of closed contours, by dynamic programming, to decide whether enumeration is affordable."""
         sources = set(self.crossing())
-        return sum(self._ways(source, source, sources, {}) for source in sources)
+        return sum(self._count_paths(source, source, sources, {}) for source in sources)
 
-    def _ways(self, node, source, sources, known):
+    def _count_paths(self, node, source, sources, known):
         if node not in known:
             ends = [j for j, _, _ in self.arcs[node]]
             known[node] = ends.count(source) + sum(
-                self._ways(j, source, sources, known) for j in ends if j not in sources
+                self._count_paths(j, source, sources, known) for j in ends if j not in sources
             )
         return known[node]
 
     def best(self):
-        """(ratio, vertices, status): the least of all contours, the given one included."""
+        """(ratio, vertices, status) of the best contour, including the given one."""
         given_ratio = self.energy.ratio(self.given)
         found = min(((f / g, path) for path, f, g in self.cycles()), default=(inf, ()))
         if found[0] < given_ratio and not same_cycle(found[1], self.given):
@@ -481,7 +482,7 @@ class BruteForce:
 
 
 def reaching(arcs, goals, stops):
-    """The nodes from which a goal can be reached without passing a stop; arcs: pairs of a node and those after it."""
+    """The nodes from which a goal can be reached without passing a stop; arcs: pairs of a node and its successors."""
     before = defaultdict(list)
     for i, following in arcs:
         for j, _, _ in following:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The meshes of Debian's libcgal-demo as they are, defective ones included, and spoilt further."""
+"""The meshes of Debian's libcgal-demo, unchanged (some are defective) and damaged further."""
 
 import io
 import tempfile
@@ -7,17 +7,17 @@ from functools import cache
 from pathlib import Path
 from unittest import mock
 
-import meshes  # noqa: F401  it makes blend_samples importable
+import meshes  # noqa: F401  makes blend_samples importable
 import numpy as np
 import real_meshes
 import trimesh
 
-MANY = 20_000  # triangles, beyond which a mesh is subdivided in part only
+MANY = 20_000  # triangles; a larger mesh is subdivided only in part
 
 
 @cache
 def contents():
-    """The bytes of each mesh file, by name; the package is fetched where the system keeps no documents."""
+    """The bytes of each mesh file, by name. The package is downloaded if the system installs no documents."""
     folder = Path(tempfile.gettempdir()) / "libcgal-demo"
     with real_meshes.open_archive(folder) as archive:
         files = [file for file in archive.getmembers() if file.isfile() and file.name.startswith("data/meshes/")]
@@ -25,8 +25,8 @@ def contents():
 
 
 def read(name):
-    """Positions and triangles, unmended; faces of more corners are cut by the reader. STL names no vertices: equal ones
-    are one, as in every modeler."""
+    """Positions and triangles, not repaired. The reader triangulates larger faces. STL has no shared vertices: equal
+    ones are merged, as every modeling program does."""
     kind = Path(name).suffix[1:]
     with mock.patch("trimesh.exchange.off.triangulate_quads", triangulate):
         mesh = trimesh.load(io.BytesIO(contents()[name]), file_type=kind, process=False, force="mesh")
@@ -36,28 +36,28 @@ def read(name):
 
 
 def triangulate(faces):
-    """The reader's own, which fails for more than four corners while these are still text."""
+    """The reader's own triangulation, which without the conversion fails on text with more than four corners."""
     return trimesh.geometry.triangulate_quads([np.array(face, dtype=np.int64) for face in faces])
 
 
-# ---- spoilt: each takes positions, triangles and a generator
+# ---- damage: each function takes positions, triangles and a random generator
 
 
-def as_it_is(positions, triangles, rng):
+def unchanged(positions, triangles, rng):
     return positions, triangles
 
 
 def subdivided(positions, triangles, rng):
-    """Each triangle in four; of a large mesh some only, which leaves T-junctions."""
+    """Splits each triangle into four; in a large mesh only some, which leaves T-junctions."""
     some = None if len(triangles) <= MANY else rng.choice(len(triangles), MANY // 4, replace=False)
     return trimesh.remesh.subdivide(positions, triangles, face_index=some)
 
 
 def decimated(positions, triangles, rng):
-    """Vertices of the same cell of a grid become one: what does not fit together afterwards stays."""
+    """Merges the vertices in each cell of a grid, and keeps the defects that result."""
     size = np.ptp(positions, axis=0).max() / rng.uniform(10, 40)
     cells, number = np.unique(np.floor(positions / size), axis=0, return_inverse=True)
-    return (cells + rng.uniform(0.3, 0.7, cells.shape)) * size, proper(number.reshape(-1)[triangles])
+    return (cells + rng.uniform(0.3, 0.7, cells.shape)) * size, drop_degenerate(number.reshape(-1)[triangles])
 
 
 def with_noise(positions, triangles, rng):
@@ -67,7 +67,7 @@ def with_noise(positions, triangles, rng):
 
 
 def with_duplicated_faces(positions, triangles, rng):
-    return positions, np.concatenate([triangles, some_of(triangles, rng)])
+    return positions, np.concatenate([triangles, random_part(triangles, rng)])
 
 
 def with_flipped_faces(positions, triangles, rng):
@@ -79,8 +79,8 @@ def with_removed_faces(positions, triangles, rng):
     return positions, triangles[rng.random(len(triangles)) >= rng.choice([0.002, 0.03])]
 
 
-WAYS = (
-    as_it_is,
+VARIANTS = (
+    unchanged,
     subdivided,
     decimated,
     with_noise,
@@ -90,11 +90,11 @@ WAYS = (
 )
 
 
-def some_of(triangles, rng):
+def random_part(triangles, rng):
     return triangles[rng.random(len(triangles)) < rng.choice([0.002, 0.03])]
 
 
-def proper(triangles):
-    """Those of three different corners, which alone are faces."""
+def drop_degenerate(triangles):
+    """The triangles with three different corners; only these are faces."""
     a, b, c = triangles.T
     return triangles[(a != b) & (b != c) & (c != a)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What all tests of the native module share: surfaces from test meshes, and realistic contours."""
+"""What all tests of the module share: surfaces from test meshes, and realistic contours."""
 
 from functools import cache
 
@@ -15,7 +15,7 @@ def surface_of(mesh, **keywords):
 
 @cache
 def realistic_contours():
-    """Jagged loops cut by tilted planes on made meshes, at least 20: a list of (name, mesh, contour)."""
+    """At least 20 jagged loops where tilted planes cut generated meshes: a list of (name, mesh, contour)."""
     rng = np.random.default_rng(2006)
     bumpy = meshes.icosphere(3)
     bumpy = bumpy.moved(bumpy.positions * (1 + 0.2 * np.sin(4 * bumpy.positions[:, [2]] + bumpy.positions[:, [0]])))
@@ -45,7 +45,7 @@ def realistic_contours():
 
 
 def pytest_addoption(parser):
-    parser.addoption("--few", type=int, help="of each test only so many of its cases, spread evenly")
+    parser.addoption("--few", type=int, help="run only this many cases of each test, evenly spread")
 
 
 def pytest_collection_modifyitems(config, items):

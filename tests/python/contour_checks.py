@@ -8,7 +8,7 @@ from contour_energy import UNITS
 
 
 def chords_by_triangle(mesh, points, closed):
-    """The chords that lie in each triangle, as sorted corners, and those that lie in none, under None."""
+    """The chords in each triangle, by its sorted corners; those in no triangle are under None."""
     by_corner = {}
     for triangle in mesh.triangles.tolist():
         for corner in triangle:
@@ -23,7 +23,7 @@ def chords_by_triangle(mesh, points, closed):
 
 
 def crossings(mesh, points, closed):
-    """Pairs of chords that meet elsewhere than at a common end, and points that are visited twice."""
+    """Pairs of chords that meet anywhere but at a common end, and points that are visited twice."""
     found = [point for point, count in Counter(points).items() if count > 1]
     for triangle, chords in chords_by_triangle(mesh, points, closed).items():
         for one, two in combinations(chords, 2):
@@ -42,7 +42,7 @@ def chords_meet(one, two, triangle):
 
 
 def flat(point, triangle):
-    """Whole coordinates in a triangle's own plane."""
+    """Integer coordinates in the plane of a triangle."""
     share = dict.fromkeys(triangle, 0)
     share[point[0]] += UNITS - point[2]
     share[point[1]] += point[2]

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The energy of contours through vertices and Steiner points, closed or open, with all its terms: eq. 3.1 to 3.3
-with what the options add, computed plainly from the mesh. Shares no line with the module.
+"""The energy of contours through vertices and Steiner points, closed or open, with all its terms: eq. 3.1 to 3.3 and
+what the options add, computed simply from the mesh. It shares no code with the module.
 
-A point is (a, b, n) with a < b, n / UNITS of the way from a to b; a vertex is (v, v, 0).
+A point is (a, b, n) with a < b: the point at the fraction n / UNITS of the edge from a to b. A vertex is (v, v, 0).
 """
 
 from itertools import pairwise
@@ -26,7 +26,7 @@ EXTRA = {
 }
 
 
-UNITS = 5040  # of an edge: every share by up to ten is whole
+UNITS = 5040  # of an edge: divisible by every number up to ten
 
 
 def vertex(v):
@@ -34,9 +34,9 @@ def vertex(v):
 
 
 def point_on(a, b, t):
-    """The canonical name of the point (1 - t) a + t b."""
+    """The canonical form of the point (1 - t) a + t b."""
     a, b, n = int(a), int(b), round(t * UNITS)
-    assert abs(t * UNITS - n) < 1e-6, "no equally spaced point"
+    assert abs(t * UNITS - n) < 1e-6, "not an equally spaced point"
     if a == b or n == 0:
         return vertex(a)
     if n == UNITS:
@@ -45,13 +45,13 @@ def point_on(a, b, t):
 
 
 def points_of(result):
-    """The points of a result of the module."""
+    """The points of a result from the module."""
     pairs = zip(result.edge_vertices.tolist(), result.edge_parameters.tolist(), strict=True)
     return [point_on(a, b, t) for (a, b), t in pairs]
 
 
 def with_steiner_points(points, closed, k):
-    """The same curve through all of the k equally spaced points of the edges that it runs along."""
+    """The same curve, with all k equally spaced points of the edges that it runs along."""
     path = [*points, points[0]] if closed else list(points)
     dense = []
     for p, q in pairwise(path):
@@ -67,7 +67,7 @@ def with_steiner_points(points, closed, k):
 
 
 def parameter(point, a, b):
-    """Where a point of the edge ab lies on it."""
+    """The parameter of a point on its edge ab."""
     if point[0] == point[1]:
         return 0 if point[0] == a else UNITS
     return point[2] if (a, b) == point[:2] else UNITS - point[2]
@@ -80,9 +80,12 @@ def edge_of(p, q):
 
 
 class Enclosed:
-    """What a closed contour of a band encloses on its left more than the given one does (6.1.2): a 1-form on the
-    band's edges, by least squares, whose circulation round each triangle is what that holds, and which is 0 along the
-    given contour. A triangle holds its share of its polygon's area times the density."""
+    """How much more a closed contour of a band encloses on its left than the given one does (6.1.2).
+
+    It is the integral of a 1-form on the edges of the band, found by least squares. Its circulation around each
+    triangle is the content of the triangle: its part of the area of its polygon times the density. Along the given
+    contour it sums to 0.
+    """
 
     def __init__(self, geometry, triangles, edges, density, given):
         self.content = {frozenset(t): (t, share) for t, share in self.contents(geometry, triangles, density)}
@@ -94,7 +97,7 @@ class Enclosed:
         rows.append(self._row(list(pairwise([*given, given[0]]))))
         held.append(0.0)
         self.form, *_ = np.linalg.lstsq(np.array(rows), np.array(held), rcond=None)
-        assert np.allclose(np.array(rows) @ self.form, held, atol=1e-12), "the band is no annulus"
+        assert np.allclose(np.array(rows) @ self.form, held, atol=1e-12), "the band is not an annulus"
 
     @staticmethod
     def contents(geometry, triangles, density):
@@ -121,20 +124,20 @@ class Enclosed:
         return sign * share * self.form[self.number[tuple(sorted((corner, other)))]]
 
     def along(self, p, q):
-        """Along an edge the form is even. A chord across a triangle cuts off a corner: by Stokes, the way round the
-        corner and what is in it."""
+        """Along an edge the form is constant. A chord across a triangle cuts off a corner: by Stokes' theorem, its
+        integral is that along the path around the corner plus the content of the corner."""
         edge = edge_of(p, q)
         if edge is not None:
             return (parameter(q, *edge) - parameter(p, *edge)) / UNITS * self.form[self.number[edge]]
         corner = min(set(p[:2]) & set(q[:2]), default=q[0] if p[2] == 0 else p[0])
         (x, s), (y, t) = self._off(corner, p), self._off(corner, q)
         triangle, content = self.content[frozenset((corner, x, y))]
-        sign = 1 if (y, x) in edges_of(triangle) else -1  # the cut corner's round runs from p to the corner to q
+        sign = 1 if (y, x) in edges_of(triangle) else -1  # the path around the corner runs from p to the corner to q
         return self._from(corner, y, t) - self._from(corner, x, s) - sign * content * s * t
 
     @staticmethod
     def _off(corner, p):
-        """The other end of the edge from a corner on which p lies, and how far along it."""
+        """The other end of the edge from a corner through p, and how far along it p lies."""
         if p[0] == p[1]:
             return p[0], 1.0
         other = p[1] if p[0] == corner else p[0]
@@ -171,12 +174,12 @@ class PointEnergy:
             self.clamp = values[ceil(self.options["feature_clamp"] * len(values)) - 1]
 
     def _fields(self, attractors):
-        """Distances over real edges, known at vertices and linear inside an edge."""
+        """Distances along real edges, known at vertices and linear inside an edge."""
         starts = {}
         for p in self.given:
             for v in p[:2]:
-                way = np.linalg.norm(self.position(p) - self.geometry.x[v])
-                starts[v] = min(starts.get(v, inf), float(way))
+                offset = np.linalg.norm(self.position(p) - self.geometry.x[v])
+                starts[v] = min(starts.get(v, inf), float(offset))
         self.from_given = self._distances(starts)
         self.attractors = []
         for v, radius, strength, *sigma in attractors:
@@ -200,7 +203,7 @@ class PointEnergy:
         return float(np.linalg.norm(self.position(q) - self.position(p)))
 
     def _unclamped(self, v):
-        """Negative where there is a feature: kappa_min, or for ridges -kappa_max; tiny ones count as 0."""
+        """kappa_min, or -kappa_max for ridges: negative where there is a feature. Tiny values count as 0."""
         kappa = -self.curvatures[v].kappa_max if self.ridge else self.curvatures[v].kappa_min
         return kappa if abs(kappa) >= NOTHING / self.h else 0.0
 
@@ -209,12 +212,12 @@ class PointEnergy:
         return at_vertex(p[0]) if t == 0 else (1 - t) * at_vertex(p[0]) + t * at_vertex(p[1])
 
     def __getitem__(self, p):
-        """(normal, feature curvature, direction or None, what a unit of length costs besides) at a point."""
+        """(normal, feature curvature, direction or None, additional cost per unit of length) at a point."""
         if p not in self.known:
             normal = self.linear(p, lambda v: self.geometry.normal[v])
             normal = normal / np.linalg.norm(normal)
             kappa = self.linear(p, lambda v: max(self._unclamped(v), -self.clamp))
-            self.known[p] = normal, kappa, self._direction(p, normal), self._besides(p)
+            self.known[p] = normal, kappa, self._direction(p, normal), self._additional_cost(p)
         return self.known[p]
 
     def _direction(self, p, normal):
@@ -233,8 +236,8 @@ class PointEnergy:
         direction = here.direction_min if self.ridge else here.direction_max
         return np.outer(direction, direction)
 
-    def _besides(self, p):
-        """Anchor minus attractors, for each unit of length."""
+    def _additional_cost(self, p):
+        """Anchor minus attractors, per unit of length."""
         away = self.linear(p, self.from_given.__getitem__) / (self.L0 / (2 * pi))
         total = self.options["anchor"] * self.K * away**2
         for distance, radius, strength, sigma in self.attractors:
@@ -244,7 +247,7 @@ class PointEnergy:
         return total
 
     def weigh_region(self, space, density):
-        """The region term, for contours of this band."""
+        """Adds the region term for contours of this band."""
         triangles, edges = map(tuple, space["triangles"].tolist()), map(tuple, space["edges"].tolist())
         self.enclosed = Enclosed(self.geometry, triangles, edges, density, self.given)
 
@@ -283,7 +286,7 @@ class PointEnergy:
         return turn <= self.options["max_turn"] + TURN_TOLERANCE
 
     def at_point(self, q, chords):
-        """(f, g) of the halves at q of one or two chords."""
+        """(f, g) of the halves of one or two chords that meet at q."""
         _, kappa, direction, besides = self[q]
         halves = [self.half(q, *chord) for chord in chords]
         length = sum(half[2] for half in halves)
@@ -316,7 +319,7 @@ class PointEnergy:
         return sum(f for f, _ in arcs), sum(g for _, g in arcs)
 
     def objective(self, f, g):
-        """What is minimized; g is the length in the denominator's measure, which is the length bias's too."""
+        """What is minimized; g is the length in the measure of the denominator, which the length bias uses too."""
         if self.options["length_bias"] == 0:
             return f / g
         K, L0 = (self.K * self.L0 / self.n0, self.n0) if self.options["denominator"] == "arcs" else (self.K, self.L0)

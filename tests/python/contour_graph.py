@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The search graph of chapter 3, regular or refined, closed or open, built plainly, and its optimum by a solver of one
-pass for each lambda (4.2.5) that keeps every source apart, or one for each number of arcs (appendix A).
+"""The search graph of chapter 3, regular or refined, closed or open, built in a simple way, and its optimum: by a
+solver that makes one pass for each lambda (4.2.5) and keeps every source separate, or one for each number of arcs
+(appendix A).
 
-Takes of the module only the flow's increments on the band. Required elements are no deletions here: a path remembers
-which of them it has visited.
+The only input from the module is the increments of the flow on the band. Required elements delete nothing here: each
+path records which of them it has visited.
 """
 
 from collections import defaultdict
@@ -14,18 +15,18 @@ import numpy as np
 from brute_force import Levels, edges_of, reaching, signed_ranks
 from contour_energy import UNITS, edge_of, point_on, vertex
 
-LEVEL = 1e-12  # chords with increments below this are level, once vertices are
+LEVEL = 1e-12  # chords with smaller increments are level once the vertices are classified
 
 
 def lower_left(sums):
-    """The rows (F, G) that no other row is below in one and not above in the other."""
+    """The rows (F, G) that no other row dominates: none is lower in one column and not higher in the other."""
     sums = sums[np.lexsort((sums[:, 0], sums[:, 1]))]
     best = np.minimum.accumulate(sums[:, 0])
     return sums[np.concatenate([[True], sums[1:, 0] < best[:-1]])]
 
 
 class AllLevels(Levels):
-    """The flow between class values on diagonals, too."""
+    """Flow levels whose increments are defined on diagonals, too."""
 
     def __init__(self, geometry, space):
         super().__init__(geometry, space)
@@ -38,7 +39,7 @@ class AllLevels(Levels):
         self.form = {(a, b): 0.0 if self.name[a] == self.name[b] else d for (a, b), d in self.form.items()}
 
     def at(self, p):
-        """The value at a point, on the sheet of its edge's first end."""
+        """The value at a point, in the same period as that of the first end of its edge."""
         return self.value[p[0]] + (p[2] / UNITS * self.form[p[:2]] if p[2] else 0.0)
 
 
@@ -57,7 +58,7 @@ class ContourGraph:
         self._borders(ends)
 
     def _ranks(self, space):
-        """Signed distances from the given contour. Open and refined ones take its sides from the module."""
+        """Signed distances from the given contour. For open and refined contours, the sides come from the module."""
         if self.energy.closed and self.energy.along_edges:
             corners = [p[0] for p in self.energy.given if p[0] == p[1]]
             return signed_ranks(self.energy.geometry, corners, space["faces"])
@@ -97,7 +98,7 @@ class ContourGraph:
         return value[p[0]] + p[2] / UNITS * (value[p[1]] - value[p[0]])
 
     def _lone_edges(self, increments):
-        """Edges of the given contour that no triangle of the band has."""
+        """Edges of the given contour that belong to no triangle of the band."""
         for a, b in self.levels.real:
             for p, q in pairwise(self._side(a, b)):
                 climb = self.levels.form[a, b] / (self.k + 1)
@@ -111,7 +112,7 @@ class ContourGraph:
             if self.k == 0 and not real:
                 return None
             if real and ((edge not in geometry.left_face) or (edge[::-1] not in geometry.left_face)):
-                return None  # on the border of the mesh, where no part ends
+                return None  # on the mesh border, where no contour runs
         if abs(increment) < LEVEL:
             return self._rank_kind(p, q)
         return 0 if increment > 0 else None
@@ -142,7 +143,7 @@ class ContourGraph:
                     self.arcs[i].append((j, *self.energy.arc(p, q, r)))
 
     def _borders(self, ends):
-        """Where paths begin and end. Closed: the chords that pass one level, through no point of the graph."""
+        """Where paths begin and end. Closed: the chords that cross one level through no point of the graph."""
         if not self.energy.closed:
             first, last = ends
             self.first = {i: self.energy.at_point(p, [(p, q)]) for i, (p, q, _) in enumerate(self.nodes) if first(p, q)}
@@ -160,7 +161,7 @@ class ContourGraph:
     # ---- the solvers
 
     def order(self):
-        """Topological; arcs into sources end a period and do not count."""
+        """A topological order; arcs into sources end a period and do not count."""
         ending = set(self.sources) if self.energy.closed else set()
         waiting = [0] * len(self.nodes)
         for arcs in self.arcs:
@@ -179,7 +180,7 @@ class ContourGraph:
         return order
 
     def best(self, required_vertices=(), required_edges=()):
-        """The least objective for the plain ratio, or inf."""
+        """The least objective with the plain ratio, or inf."""
         self._visits(required_vertices, required_edges)
         order, least, ratio = self.order(), inf, 0.0
         while True:
@@ -196,7 +197,8 @@ class ContourGraph:
         self.bits = [sum(1 << n for n, e in enumerate(elements) if e <= {p, q}) for p, q, _ in self.nodes]
 
     def _pass(self, order, ratio):
-        """(F, G) of the path with the least F - ratio G that visits all: one column for each source."""
+        """(F, G) of the path with the least F - ratio G that visits all required elements: one column for each
+        source."""
         starts = self.sources if self.energy.closed else [None]
         shape = (len(self.nodes), self.all_bits + 1, len(starts))
         cost, F, G = np.full(shape, inf), np.zeros(shape), np.zeros(shape)
@@ -234,8 +236,8 @@ class ContourGraph:
                     table[j, to][better] = table[i, mask][better] + weight
 
     def best_by_count(self, objective):
-        """Appendix A: the least F for every number of arcs, one column for each source. The least of
-        objective(F, count), where every arc has g = 1 (and both ends of an open curve together)."""
+        """Appendix A: the least F for every number of arcs, one column for each source. Returns the least
+        objective(F, count), where every arc has g = 1 (as have both ends of an open curve together)."""
         starts = self.sources if self.energy.closed else [None]
         order = self.order()
         longest = self._longest(order) + 2
@@ -261,10 +263,10 @@ class ContourGraph:
         return best
 
     def best_with_bias(self, limit):
-        """The least objective below `limit` with length bias by arc length, or `limit`. Below a limit c lie the paths
-        with F <= K G (c - beta max(G / L0, floor)). With F' = F - K G (c - beta floor) that is
-        F' <= K G beta (floor - max(G / L0, floor)), which only falls with G: a path that is worse in F' and in G than
-        another on its way to the same node is not needed. Every better path found lowers the limit."""
+        """The least objective below `limit` with length bias by arc length, or `limit`. The paths below a limit c have
+        F <= K G (c - beta max(G / L0, floor)). With F' = F - K G (c - beta floor) that is
+        F' <= K G beta (floor - max(G / L0, floor)), which only falls with G: a path to a node is not needed if another
+        path to it is better in both F' and G. Every better path found lowers the limit."""
         energy, order, least, found = self.energy, self.order(), inf, limit
         while found < least:
             least = found
@@ -274,7 +276,7 @@ class ContourGraph:
         return least
 
     def _pareto(self, order, slope):
-        """(F', G) of the paths that no other is better than in both, each source apart."""
+        """(F', G) of the paths that no other path dominates, separately for each source."""
         closed, found = self.energy.closed, []
         last, ending = ({}, set(self.sources)) if closed else (self.last, set())
         for start in [{s: (0.0, 0.0)} for s in self.sources] if closed else [self.first]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Prints a line for each of some 1,000 searches: equal where the results are the same to the last bit.
+"""Prints one line for each of 1,000 searches. Lines are equal if the results are equal to the last bit.
 
 python tests/python/fingerprints.py
 """
@@ -28,7 +28,7 @@ def random_options(rng):
 
 
 def bytes_of(result):
-    """Every number of a result, to the last bit, and its codes; no words, which may be reworded."""
+    """Every number of a result, to the last bit, and its codes, but not its messages, which may be reworded."""
     arrays = [result.positions, result.edge_vertices, result.edge_parameters, result.history]
     numbers = [result.ratio, result.objective, result.salience, result.lower_bound, result.gap]
     counts = [result.statistics[name] for name in ("faces", "cut", "nodes", "arcs", "linear_steps", "passes")]
@@ -37,7 +37,7 @@ def bytes_of(result):
 
 
 def fingerprint(surface, contours, closed, options):
-    """The same from one thread as from several."""
+    """The hash of a result, which must be the same for one thread and several."""
     found = set()
     for threads in (1, 3):
         try:

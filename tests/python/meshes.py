@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makers of test meshes, and of rough contours on them."""
+"""Test meshes, and rough contours on them."""
 
 import sys
 from dataclasses import dataclass, replace
@@ -15,7 +15,7 @@ from figure_meshes import grid_faces, split_quads  # noqa: E402
 
 @dataclass(frozen=True)
 class Mesh:
-    """Polygons with the triangulation that the tests prescribe (n - 2 triangles for each polygon, in face order)."""
+    """Polygons with a prescribed triangulation (n - 2 triangles for each polygon, in face order)."""
 
     positions: np.ndarray
     faces: tuple
@@ -30,7 +30,7 @@ class Mesh:
         return np.concatenate([np.asarray(face, dtype=np.int32) for face in self.faces])
 
     def arguments(self):
-        """What `mrcontour.Surface` takes, in its order."""
+        """The arguments of `mrcontour.Surface`, in order."""
         return self.positions, self.face_offsets, self.face_vertices, self.triangles
 
     def real_edges(self):
@@ -43,7 +43,7 @@ class Mesh:
 
 
 def polygon_mesh(positions, faces, flips=None):
-    """Fan triangulation of each polygon from its first corner, or from its second where `flips` says so."""
+    """Triangulates each polygon as a fan from its first corner, or from its second where `flips` is set."""
     faces = tuple(tuple(int(v) for v in face) for face in faces)
     flips = np.zeros(len(faces), dtype=bool) if flips is None else flips
     triangles = []
@@ -59,7 +59,7 @@ def random_flips(faces, rng):
 
 
 def jittered_annulus(rng, rings, columns, split_share=1.0, height=0.4):
-    """A flat ring of cells with jittered radii, angles and heights; its two borders are mesh borders."""
+    """A flat ring of cells with jittered radii, angles and heights, open at both borders."""
     radius = 2.0 + np.arange(rings)[:, None] + rng.uniform(-0.25, 0.25, (rings, columns))
     angle = -2 * np.pi * (np.arange(columns)[None, :] + rng.uniform(-0.25, 0.25, (rings, columns))) / columns
     z = rng.uniform(-height, height, (rings, columns))
@@ -69,7 +69,7 @@ def jittered_annulus(rng, rings, columns, split_share=1.0, height=0.4):
 
 
 def tube(radius, columns, step=1.0, split_share=0.0, rng=None, noise=0.0):
-    """A quad tube round the z axis with one radius for each ring, open at both ends."""
+    """A tube of quads around the z axis with one radius for each ring, open at both ends."""
     rows = len(radius)
     rng = rng or np.random.default_rng(0)
     angle = 2 * np.pi * np.arange(columns) / columns
@@ -81,7 +81,7 @@ def tube(radius, columns, step=1.0, split_share=0.0, rng=None, noise=0.0):
 
 
 def trapezoid_tube(rng, rows, columns):
-    """Random tube whose quads are irregular trapezoids, planar: one cross-section, scaled and shifted for each ring."""
+    """A random tube of irregular but planar trapezoids: one cross-section, scaled and shifted for each ring."""
     angle = 2 * np.pi * (np.arange(columns) + rng.uniform(-0.3, 0.3, columns)) / columns
     section = np.stack([np.cos(angle), np.sin(angle)], axis=-1) * rng.uniform(0.85, 1.15, (columns, 1))
     scale = 2.0 + 0.5 * np.sin(np.arange(rows) * 0.9) + rng.uniform(-0.2, 0.2, rows)
@@ -93,7 +93,7 @@ def trapezoid_tube(rng, rows, columns):
 
 
 def square_prism(side, rows):
-    """A square tube of squares that are all the same, with edges of 1/3."""
+    """A tube with a square section, made of equal squares with edges of 1/3."""
     step = np.arange(side) / 3
     path = [(x, 0) for x in step] + [(side / 3, y) for y in step]
     path += [(side / 3 - x, side / 3 - y) for x, y in path]
@@ -102,7 +102,7 @@ def square_prism(side, rows):
 
 
 def torus(rows, columns, major=3.0, minor=1.0, rng=None, split_share=0.0, noise=0.0, grooves=0.0):
-    """`columns` along the tube's long way, `rows` round its section; grooves narrow it at three places."""
+    """A torus with `columns` along its length and `rows` around its section; grooves narrow it at three places."""
     rng = rng or np.random.default_rng(0)
     long, short = np.meshgrid(2 * np.pi * np.arange(columns) / columns, 2 * np.pi * np.arange(rows) / rows)
     thickness = minor * (1 - grooves * np.cos(1.5 * long) ** 8)
@@ -114,7 +114,7 @@ def torus(rows, columns, major=3.0, minor=1.0, rng=None, split_share=0.0, noise=
 
 
 def bent_tube(rng, rows=60, columns=24):
-    """A quarter of a bent tube, triangulated at random, with a waist in the middle."""
+    """A tube bent by a right angle, triangulated at random, with a waist in the middle."""
     along = np.linspace(0, np.pi / 2, rows)
     radius = 1.0 - 0.35 * np.exp(-(((along - np.pi / 4) / 0.12) ** 2))
     angle = 2 * np.pi * np.arange(columns) / columns
@@ -128,7 +128,7 @@ def bent_tube(rng, rows=60, columns=24):
 
 
 def subdivided(positions, faces):
-    """Each triangle in four; new points, on the unit sphere, are appended to the list of positions."""
+    """Splits each triangle into four; the new points, on the unit sphere, are appended to the positions."""
     middles, result = {}, []
     for a, b, c in faces:
         for p, q in ((a, b), (b, c), (c, a)):
@@ -142,7 +142,7 @@ def subdivided(positions, faces):
 
 
 def icosphere(subdivisions):
-    """A unit sphere of triangles."""
+    """A unit sphere made of triangles."""
     golden = (1 + np.sqrt(5)) / 2
     positions = [
         (-1, golden, 0),
@@ -187,7 +187,7 @@ def icosphere(subdivisions):
 
 
 def peanut(rng, subdivisions=4):
-    """A closed body with a waist and bumps: a sphere, displaced along its normals."""
+    """A closed body with a waist and bumps: a sphere displaced along its normals."""
     sphere = icosphere(subdivisions)
     unit = sphere.positions
     centers = rng.standard_normal((6, 3))
@@ -198,13 +198,13 @@ def peanut(rng, subdivisions=4):
 
 
 def finger(rng):
-    """The finger of the figures, and its base ring."""
+    """The finger of the thesis figures, and its base ring."""
     positions, faces, base_ring = figure_meshes.finger(rng)
     return polygon_mesh(positions, faces), base_ring
 
 
 def zigzag_contour(rng, columns, lowest, highest, step_chance=0.5):
-    """A random closed contour round a grid's columns, along the grid's edges, between two rows. It never turns back."""
+    """A random closed contour around the columns of a grid, along its edges, between two rows. It never turns back."""
     rows = [int(rng.integers(lowest, highest + 1))]
     for _ in range(columns - 1):
         step = int(rng.choice([-1, 1])) if rng.random() < step_chance else 0
@@ -213,12 +213,13 @@ def zigzag_contour(rng, columns, lowest, highest, step_chance=0.5):
 
 
 def plane_contours(mesh, normal, offset):
-    """The jagged loops along a plane (`figure_meshes.plane_loops`)."""
+    """The jagged loops where a plane cuts the mesh (`figure_meshes.plane_loops`)."""
     return figure_meshes.plane_loops(mesh.positions, mesh.faces, normal, offset)
 
 
 def renumbered(mesh, rng):
-    """Vertices, faces and every face's first corner in another order. Returns the mesh and each vertex's new number."""
+    """Shuffles the vertices, the faces, and the first corner of each face. Returns the mesh and the new vertex
+    numbers."""
     number = rng.permutation(len(mesh.positions))
     positions = np.empty_like(mesh.positions)
     positions[number] = mesh.positions
@@ -233,5 +234,5 @@ def renumbered(mesh, rng):
 
 def rigidly_moved(mesh, rng):
     rotation, _ = np.linalg.qr(rng.standard_normal((3, 3)))
-    rotation *= np.linalg.det(rotation)  # no mirror image
+    rotation *= np.linalg.det(rotation)  # not a mirror image
     return mesh.moved(mesh.positions @ rotation.T + rng.uniform(-5, 5, 3))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Small random searches, and the comparison of what the module finds with the independent solver's optimum."""
+"""Small random searches, and the comparison of their results with the optimum of the independent solver."""
 
 from functools import cached_property
 from itertools import pairwise
@@ -13,11 +13,11 @@ from conftest import surface_of
 from contour_energy import EXTRA, Enclosed, PointEnergy, edge_of, point_on, points_of, vertex, with_steiner_points
 from contour_graph import ContourGraph
 
-UNDER_SANITIZERS = 6  # cases of each kind, since these take five times as long there
+UNDER_SANITIZERS = 6  # cases of each kind, which take five times as long there
 
 
 def seeds(count, in_full=200):
-    """Parametrizes by seed: `count` cases always, the rest of them in a full run only."""
+    """Parametrizes by seed: `count` cases always, the others only in a full run."""
     few = [*range(min(count, UNDER_SANITIZERS))]
     more = [pytest.param(seed, marks=pytest.mark.slow) for seed in range(UNDER_SANITIZERS, count)]
     rest = [pytest.param(seed, marks=pytest.mark.long) for seed in range(count, in_full)]
@@ -25,14 +25,15 @@ def seeds(count, in_full=200):
 
 
 def annulus(rng):
-    """Triangles, quads or both."""
+    """An annulus of triangles, quads or both."""
     rings, columns = int(rng.integers(3, 5)), int(rng.integers(4, 7))
     mesh = meshes.jittered_annulus(rng, rings, columns, split_share=rng.choice([0.0, 0.5, 1.0]))
     return mesh, meshes.zigzag_contour(rng, columns, 1, rings - 2)
 
 
 def cylinder(rng):
-    """Regular quads, with level edges in the harmonic flow; exactly regular or with noise in positions."""
+    """A cylinder of regular quads, which give level edges in the harmonic flow; sometimes with noise in the
+    positions."""
     rings, columns = int(rng.integers(3, 6)), int(rng.integers(4, 7))
     noise = rng.choice([0.0, 0.1])
     mesh = meshes.tube(rng.uniform(0.8, 1.4, rings), columns, step=rng.uniform(0.4, 1.0), rng=rng, noise=noise)
@@ -46,14 +47,14 @@ def torus(rng):
 
 
 def chain(rng):
-    """An open chain inside an annulus, a cylinder or a torus."""
+    """An open chain inside an annulus, cylinder or torus."""
     mesh, contour = (annulus, cylinder, torus)[int(rng.integers(3))](rng)
     length = int(rng.integers(3, len(contour)))
     return mesh, np.roll(contour, rng.integers(len(contour)))[:length].copy()
 
 
 def crossing_chain(rng):
-    """A chain from border to border, or from a border to a vertex inside."""
+    """A chain from border to border, or from a border to an inner vertex."""
     rows, columns = int(rng.integers(4, 6)), int(rng.integers(4, 7))
     mesh = meshes.jittered_annulus(rng, rows, columns, split_share=rng.choice([0.0, 0.5, 1.0]))
     column, path = int(rng.integers(columns)), []
@@ -68,7 +69,7 @@ def crossing_chain(rng):
 
 
 def random_energy(rng):
-    """Options of eq. 3.2 and of curvature, half of the time the defaults."""
+    """Options of eq. 3.2 and of the curvature; half of the time the defaults."""
     options = {"feature": ("valley", "ridge")[int(rng.integers(2))]}
     if rng.random() < 0.5:
         options |= {
@@ -83,7 +84,7 @@ def random_energy(rng):
 
 
 class Case:
-    """One search: by the module, and by enumeration or the independent solver."""
+    """A search, both by the module and by enumeration or the independent solver."""
 
     def __init__(self, mesh, contour, options=None, closed=True, dense=False, **wishes):
         self.mesh, self.contour, self.closed, self.wishes = mesh, contour, closed, wishes
@@ -94,7 +95,7 @@ class Case:
         self.passed = self.given if dense else points
 
     def dense(self, points):
-        """With the points of the run's k, with which everything is measured."""
+        """The contour with the Steiner points of the search, with which everything is measured."""
         return with_steiner_points(points, self.closed, self.options["refinement"])
 
     @property
@@ -129,7 +130,7 @@ class Case:
         return ContourGraph(self.energy, self.space, None if self.closed else self.ends())
 
     def ends(self):
-        """Which chords begin and which end a path."""
+        """The chords that may begin, and those that may end, a path."""
         pieces = self.border_pieces() if self.options["ends"] == "border" else []
         first, last = self.given[0], self.given[-1]
         at_first = next((piece for piece in pieces if first in piece and last not in piece), {first})
@@ -137,7 +138,7 @@ class Case:
         return (lambda p, q: p in at_first), (lambda p, q: q in at_last)
 
     def border_pieces(self):
-        """The pieces of mesh border in the band: sets of points."""
+        """The pieces of the mesh border in the band, as sets of points."""
         edges = [edge for i in self.space["faces"].tolist() for edge in self.energy.geometry.face_edges[i]]
         open_edges = [edge for edge in edges if edge[::-1] not in self.energy.geometry.left_face]
         pieces = []
@@ -149,7 +150,8 @@ class Case:
         return pieces
 
     def required(self):
-        """Vertices and edges; the first and last edge of an open contour are held with ends="edges"."""
+        """The required vertices and edges; with ends="edges" these include the first and last edge of an open
+        contour."""
         edges = [tuple(map(int, edge)) for edge in self.wishes.get("required_edges", ())]
         if not self.closed and self.options["ends"] == "edges":
             edges += [tuple(map(int, self.contour[:2])), tuple(map(int, self.contour[-2:]))]
@@ -172,14 +174,14 @@ class Case:
         return self.energy.objective(*self.energy.sums(self.given))
 
     def expected(self):
-        """The least objective: of the graph, and of the given contour where it is feasible."""
+        """The least objective of the graph and, if it is feasible, of the given contour."""
         least = self.graph.best(*self.required())
         if isfinite(least):
             least = self.energy.objective(least, 1.0) if self.options["length_bias"] == 0 else least
         return min(least, self.given_objective() if self.holds(self.given) else inf)
 
     def whole_content(self):
-        """What a closed surface without a border holds; elsewhere 0."""
+        """The total content of a surface without a border; otherwise 0."""
         geometry = self.energy.geometry
         if any((b, a) not in geometry.left_face for a, b in geometry.left_face):
             return 0.0
@@ -188,8 +190,8 @@ class Case:
 
     @property
     def rounding(self):
-        """Of f, in units of K. Where chords run straight across the direction the rounding of a cosine is raised to the
-        direction's exponent."""
+        """The rounding error of f, in units of K. Where chords are perpendicular to the direction, the rounding error
+        of a cosine is raised to the direction exponent."""
         return max(1e-10, 1e-15 ** self.energy.options["direction_exponent"])
 
     def close(self, one, two):
@@ -207,7 +209,7 @@ def check_scales(case, scales):
 
 
 def check_same_graph(case):
-    """Node by node and arc by arc, f and g included."""
+    """Compares both graphs node by node and arc by arc, including f and g."""
     space, graph = case.space, case.graph
     points = [point_on(a, b, t) for (a, b), t in zip(space["points"].tolist(), space["parameters"], strict=True)]
     place = points.__getitem__ if any(p[2] for p in points) else vertex
@@ -227,8 +229,8 @@ def check_same_graph(case):
 
 
 def check_optimum(case, expected=None):
-    """The module's objective is the optimum, and its result has that objective by the independent measure and by its
-    own. Returns the result, or None where no contour is feasible and the module says so."""
+    """The objective of the module is the optimum, and both the independent measure and its own confirm it for the
+    result. Returns the result, or None if no contour is feasible and the module says so."""
     expected = case.expected() if expected is None else expected
     if expected == inf:
         with pytest.raises(mrc.Infeasible, match=r"\d"):
@@ -253,7 +255,7 @@ def check_optimum(case, expected=None):
 
 
 def check_measure(case, result, length):
-    """The module's own measure says the same of its result."""
+    """The module's own measure agrees with its result."""
     again = mrc.measure(
         case.surface,
         **case.contour_arguments(points_of(result)),
@@ -264,7 +266,7 @@ def check_measure(case, result, length):
     off = abs(again.ratio - result.ratio)
     shift = 0.0
     if "region_density" in case.wishes and off > case.rounding * case.energy.K:
-        # Two loops round a torus bound two parts of it, and nothing but the search's band tells which is meant.
+        # Two loops around a torus bound two parts of it, and only the band of the search tells which is meant.
         shift = abs(case.energy.region_factor() * case.whole_content() / length)
     assert abs(off - shift) <= 1e-12 * (abs(result.ratio) + shift) + 1e-15 * case.energy.K
     if shift == 0.0:

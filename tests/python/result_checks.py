@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What holds of every result, whatever the mesh and the options, judged by the triangles alone."""
+"""What holds for every result, whatever the mesh and the options, checked with nothing but the triangles."""
 
 from dataclasses import dataclass, field
 from itertools import combinations, pairwise
@@ -13,7 +13,7 @@ from contour_energy import edge_of, points_of, vertex
 
 @dataclass
 class Task:
-    """A contour on a mesh, with all that it is given."""
+    """A contour on a mesh, with its options and constraints."""
 
     surface: mrc.Surface
     triangles: np.ndarray
@@ -22,11 +22,11 @@ class Task:
     options: mrc.Options
     wishes: dict = field(default_factory=dict)
     hidden: frozenset = frozenset()
-    faces: list | None = None  # None: the triangles are the faces
+    faces: list | None = None  # None if the triangles are the faces
 
 
 def triangles_near(triangles, *contours):
-    """The part of a mesh that the checks look at: triangles at the contours."""
+    """The part of a mesh that the checks need: the triangles at the contours."""
     ends = np.unique([v for points in contours for point in points for v in point[:2]])
     return SimpleNamespace(triangles=triangles[np.isin(triangles, ends).any(axis=1)])
 
@@ -64,7 +64,7 @@ def check_numbers(result):
 
 
 def check_status(task, result, points):
-    """Never worse than given, but where the given contour breaks a requirement."""
+    """A result is never worse than the given contour, unless that breaks a requirement."""
     meant = passes(task.given, task.closed, task.wishes)
     if result.status == "improved":
         assert meant
@@ -80,7 +80,7 @@ def check_status(task, result, points):
 
 
 def passes(points, closed, wishes):
-    """Whether all required elements lie on a contour."""
+    """Whether a contour passes all required elements."""
     chords = list(pairwise([*points, points[0]] if closed else points))
     for a, b in wishes.get("required_edges", ()):
         along = [chord for chord in chords if edge_of(*chord) == tuple(sorted((int(a), int(b))))]
@@ -91,8 +91,8 @@ def passes(points, closed, wishes):
 
 
 def check_ends(task, points):
-    """An open contour keeps its ends, and with 'edges' its first and last edge, where these are edges and no chords
-    across a face; only an end on the border may slide."""
+    """An open contour keeps its ends and, with 'edges', its first and last edge, unless these are chords across a face.
+    Only an end on the border may slide."""
     if task.closed or task.options.ends == "border":
         return
     assert (points[0], points[-1]) == (task.given[0], task.given[-1])
@@ -102,7 +102,7 @@ def check_ends(task, points):
 
 
 def check_segment_faces(task, result, points):
-    """Each segment lies in the face that is named for it, and none across a hidden face."""
+    """Each segment lies in the face named for it, and none runs across a hidden face."""
     chords = list(pairwise([*points, points[0]] if result.closed else points))
     holding = result.segment_faces.tolist()
     assert len(holding) == len(chords)
@@ -115,7 +115,7 @@ def check_segment_faces(task, result, points):
 
 
 def check_measure(task, result):
-    """The result's ratio is that of its contour. What is enclosed counts from the contour as given."""
+    """The ratio of the result is that of its contour. The enclosed integral is relative to the given contour."""
     if "region_density" in task.wishes:
         return
     more = {"attractors": task.wishes.get("attractors", ()), "scales": result.scales}
@@ -125,7 +125,7 @@ def check_measure(task, result):
 
 
 def check_apart(tasks, results):
-    """Results meet only where the given contours did, at points or along edges, and cross nowhere else."""
+    """Results meet only where the given contours did, at points or along edges, and cross nowhere."""
     for (one, p), (two, q) in combinations(list(zip(tasks, results, strict=True)), 2):
         found = points_of(p), points_of(q)
         shared = places(one) & places(two)
@@ -142,6 +142,6 @@ def places(task):
 
 
 def vertices_at(meeting):
-    """The ends of the edges that a point, or two chords that cross, lie on."""
+    """The ends of the edges that contain a point or two crossing chords."""
     points = [meeting] if isinstance(meeting[0], int) else [p for chord in meeting for p in chord]
     return {v for p in points for v in p[:2]}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rough contours of all kinds on meshes of triangles, however broken, of bounded length: what a user's selection is."""
+"""Rough contours of bounded length and of all kinds, such as users select, on triangle meshes with any defects."""
 
 import importlib
 import sys
@@ -13,12 +13,12 @@ from scipy.sparse.csgraph import breadth_first_order
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 sort_edges = importlib.import_module("addon.core.edge_paths").sort_edges
 
-LONGEST = 150  # points of a contour
-REACH = 40  # edges from a contour's seed to its farthest point
+LONGEST = 150  # the maximum number of points of a contour
+REACH = 40  # the maximum number of edges from the seed of a contour to its farthest point
 
 
 class RoughContours:
-    """Each kind is a method that gives a list of (vertices, closed); empty where nothing of the kind lies there."""
+    """Each kind is a method that returns a list of (vertices, closed), which is empty if there is none of that kind."""
 
     def __init__(self, positions, triangles, rng):
         self.positions, self.triangles, self.rng = positions, triangles, rng
@@ -35,7 +35,7 @@ class RoughContours:
         return int(self.rng.choice(self.corners))
 
     def ball(self, seed, hops):
-        """A mask of the vertices within so many edges."""
+        """A mask of the vertices within this many edges."""
         near = np.zeros(len(self.positions), dtype=bool)
         near[seed] = True
         for _ in range(hops):
@@ -43,7 +43,7 @@ class RoughContours:
         return near
 
     def borders(self, chosen, within=None):
-        """The edges between chosen triangles and others, as the add-on sorts them."""
+        """The edges between chosen and other triangles, sorted into contours as in the add-on."""
         within = np.ones(len(chosen), dtype=bool) if within is None else within
         inside, outside = (edges_of(self.triangles[within & part]) for part in (chosen, ~chosen))
         both = np.concatenate([np.unique(part, axis=0) for part in (inside, outside)])
@@ -51,7 +51,7 @@ class RoughContours:
         return self.bounded(sort_edges(edges[counts == 2]))
 
     def bounded(self, pieces):
-        """Loops and chains of a bearable length; of what branches, a path."""
+        """Loops and chains of limited length; where edges branch, a path."""
         found = [(loop, True) for loop in pieces.loops if len(loop) <= LONGEST]
         found += [(loop[:LONGEST], False) for loop in pieces.loops if len(loop) > LONGEST]
         found += [(chain[:LONGEST], False) for chain in pieces.chains]
@@ -59,13 +59,13 @@ class RoughContours:
         return [(np.array(vertices, dtype=np.int32), closed) for vertices, closed in found if len(vertices) > 1]
 
     def face_set(self):
-        """The ragged border of faces painted round a point."""
+        """The ragged border of the faces painted around a point."""
         near = self.ball(self.seed(), int(self.rng.integers(1, 9)))
         painted = near[self.triangles].all(axis=1)
         return self.borders(painted & (self.rng.random(len(painted)) > self.rng.choice([0.0, 0.02])))
 
     def plane_cut(self):
-        """The zigzag between faces on both sides of a plane."""
+        """The zigzag between the faces on both sides of a plane."""
         seed, normal = self.seed(), self.rng.standard_normal(3)
         within = self.ball(seed, REACH)[self.triangles].all(axis=1)
         return self.borders((self.centers - self.positions[seed]) @ normal > 0, within)
@@ -75,7 +75,7 @@ class RoughContours:
         return self.positions[self.triangles].mean(axis=1)
 
     def parallel_cuts(self):
-        """Several at once, side by side."""
+        """Several cuts at once, side by side."""
         seed, normal = self.seed(), self.rng.standard_normal(3)
         within = self.ball(seed, REACH)[self.triangles].all(axis=1)
         height = (self.centers - self.positions[seed]) @ normal
@@ -93,7 +93,7 @@ class RoughContours:
         return [(np.array(path[:LONGEST], dtype=np.int32), False)] if len(path) > 1 else []
 
     def hole(self):
-        """The mesh's own border, where it has one."""
+        """The border of the mesh, if it has one."""
         edges, counts = np.unique(edges_of(self.triangles), axis=0, return_counts=True)
         pieces = self.bounded(sort_edges(edges[counts == 1]))
         return [pieces[self.rng.integers(len(pieces))]] if pieces else []
@@ -104,7 +104,7 @@ def edges_of(triangles):
 
 
 def simple_path(edges):
-    """Along edges from the first, as far as they lead to vertices not seen yet."""
+    """Follows edges from the first one, as long as they lead to new vertices."""
     beside = {}
     for a, b in edges.tolist():
         beside.setdefault(a, []).append(b)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Laws that every band, flow and search graph obeys, checked on what `mrcontour.search_space` returns."""
+"""Invariants of every band, flow and search graph, checked on what `mrcontour.search_space` returns."""
 
 import itertools
 from collections import defaultdict
@@ -24,7 +24,8 @@ def check_search_space(mesh, contour, space, options):
 
 
 def check_band(mesh, contour, space):
-    """An annulus: Euler characteristic 0, the contour's own edges included where one side has no faces."""
+    """The band is an annulus: its Euler characteristic is 0, counting the contour's own edges where one side is
+    empty."""
     faces = [mesh.faces[i] for i in space["faces"].tolist()]
     assert len(set(space["faces"].tolist())) == len(faces)
     edges = {tuple(sorted(edge)) for loop in [*faces, contour] for edge in pairs(loop)}
@@ -43,8 +44,8 @@ def open_edges(faces):
 
 
 def check_rounds(mesh, contour, space):
-    """Every vertex of a round shares a polygon of the band with a vertex of the last round's boundary; the boundaries
-    are simple loops along the mesh's edges."""
+    """Every vertex of a round shares a polygon of the band with a vertex of the previous round's boundary. The
+    boundaries are simple loops along mesh edges."""
     faces = [set(mesh.faces[i]) for i in space["faces"].tolist()]
     around = defaultdict(set)
     for face in faces:
@@ -68,7 +69,8 @@ def check_rounds(mesh, contour, space):
 
 
 def check_flow(contour, space):
-    """A closed 1-form of period 1: sums are zero round every triangle, and one round the contour and every boundary."""
+    """A closed 1-form of period 1: it sums to zero around every triangle, and to one around the contour and every
+    boundary."""
     form = {}
     for (a, b), increment in zip(space["edges"].tolist(), space["increments"].tolist(), strict=True):
         assert (a, b) not in form
@@ -82,7 +84,7 @@ def check_flow(contour, space):
 
 
 def check_harmonic(space):
-    """With weight 1 on each real edge, what flows into a vertex flows out again."""
+    """With weight 1 on every real edge, the flow into each vertex equals the flow out of it."""
     balance = defaultdict(float)
     real = ~space["diagonal"]
     for (a, b), increment in zip(space["edges"][real].tolist(), space["increments"][real].tolist(), strict=True):
@@ -92,7 +94,7 @@ def check_harmonic(space):
 
 
 def check_strips(contour, space):
-    """The strip boundaries cover the band, rise strictly, do not cross, and no edge skips one."""
+    """The strip boundaries cover the band, rise strictly and do not cross, and no edge skips one."""
     strips = [strip.tolist() for strip in space["strips"]]
     form = dict(zip(map(tuple, space["edges"].tolist()), space["increments"].tolist(), strict=True))
     form |= {(b, a): -increment for (a, b), increment in form.items()}
@@ -127,7 +129,7 @@ def triangles_left_of(loop, space):
 
 
 def check_graph(space):
-    """Arcs join edges end to start, and all go forward but those that leave the cut, where a period ends."""
+    """Arcs join edges end to start. All lead forward except those that leave the cut, where a period ends."""
     nodes, cut = space["nodes"], set(space["cut"].tolist())
     assert cut
     assert len({tuple(node) for node in nodes.tolist()}) == len(nodes)

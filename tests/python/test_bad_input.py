@@ -5,11 +5,11 @@ import meshes
 import mrcontour as mrc
 import numpy as np
 import pytest
-from search_space_checks import check_search_space, pairs
 from brute_force import same_cycle
 from conftest import surface_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from search_space_checks import check_search_space, pairs
 
 FLOWS = ["gates", "arc_length", "harmonic"]
 

@@ -8,9 +8,9 @@ import meshes
 import mrcontour as mrc
 import numpy as np
 import pytest
-from search_space_checks import check_search_space
 from brute_force import BruteForce
 from conftest import surface_of
+from search_space_checks import check_search_space
 
 AFFORDABLE = 20000  # contours that the enumeration may visit in one band
 

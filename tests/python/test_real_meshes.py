@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every mesh file of Debian's libcgal-demo, as it is and spoilt: each call gives a valid result or says what is wrong.
+"""Every mesh file of Debian's libcgal-demo, unchanged and damaged: each call gives a valid result or says what is
+wrong.
 
-What happened is counted by kind, as properties of the JUnit report.
+Outcomes are counted by kind and reported as properties in the JUnit report.
 """
 
 import os
@@ -25,14 +26,14 @@ import cgal_meshes  # noqa: E402
 
 pytestmark = [pytest.mark.long, pytest.mark.slow]
 
-CALLS = 20  # at least so many contours of each mesh
-SECONDS = 60  # after which a call counts as hung
+CALLS = 20  # the minimum number of contours tried on each mesh
+SECONDS = 60  # seconds after which a call counts as hung
 KINDS = ("face_set", "plane_cut", "chain", "hole", "parallel_cuts")
 COUNTS = Counter()
 
 
 def random_options(rng, small):
-    """Each option away from its default now and then."""
+    """Sometimes changes each option from its default."""
     often = {
         "width": int(rng.integers(1, 6)) if not small or rng.random() < 0.8 else None,
         "refinement": int(rng.integers(0, 3)),
@@ -59,8 +60,8 @@ def random_options(rng, small):
     return mrc.Options(**chosen | random_energy(rng) | ({"max_turn": pi} if rng.random() < 0.2 else {}))
 
 
-def random_wishes(rng, contour, closed, positions, triangles):
-    """Required elements on the contour or beside it, barriers beside it, attractors, a region's density."""
+def random_constraints(rng, contour, closed, positions, triangles):
+    """Required elements on or beside the contour, barriers beside it, attractors, and a region density."""
     near = triangles[np.isin(triangles, contour).any(axis=1)]
     near = near[rng.integers(len(near), size=4)]
     i = int(rng.integers(len(contour) - 1))
@@ -77,7 +78,8 @@ def random_wishes(rng, contour, closed, positions, triangles):
 
 
 def deadline():
-    """A progress function that ends a call which takes too long; what it raises is no ValueError and fails the test."""
+    """A progress function that aborts a call that takes too long. Its exception is not a ValueError, so the test
+    fails."""
     end = time.monotonic() + SECONDS
 
     def progress(_):
@@ -87,8 +89,8 @@ def deadline():
     return progress
 
 
-def tried(counts, call):
-    """What a call gives, or None where it says what is wrong; counts which, and remembers the slowest."""
+def attempt(counts, call):
+    """The result of a call, or None if it says what is wrong. Counts both, and records the slowest call."""
     start, result, message = time.perf_counter(), None, None
     try:
         result = call()
@@ -103,13 +105,13 @@ def tried(counts, call):
 
 
 class Trial:
-    """One mesh, and contours of all kinds on it."""
+    """A mesh, and contours of all kinds on it."""
 
     def __init__(self, positions, triangles, rng, counts):
         self.positions, self.rng, self.counts = positions, rng, counts
-        surface = tried(counts, lambda: mrc.Surface(positions, None, triangles))
+        surface = attempt(counts, lambda: mrc.Surface(positions, None, triangles))
         counts["surfaces refused"] += surface is None
-        self.triangles = triangles if surface else cgal_meshes.proper(triangles)
+        self.triangles = triangles if surface else cgal_meshes.drop_degenerate(triangles)
         share = rng.choice([0.0, 0.0, 0.01])
         self.hidden = np.flatnonzero(rng.random(len(self.triangles)) < share).astype(np.int32)
         self.surface = mrc.Surface(positions, None, self.triangles, hidden_faces=self.hidden)
@@ -117,7 +119,7 @@ class Trial:
         self.calls = 0
 
     def run(self, calls):
-        """Until so many contours were tried; kinds that the mesh does not have give none."""
+        """Tries contours until there were enough. Kinds that do not occur on the mesh give none."""
         for attempt in range(10 * calls):
             if self.calls >= calls:
                 return
@@ -131,7 +133,7 @@ class Trial:
 
     def task(self, vertices, closed, wishes=True):
         rng, given = self.rng, [vertex(v) for v in vertices]
-        chosen = random_wishes(rng, vertices, closed, self.positions, self.triangles) if wishes else {}
+        chosen = random_constraints(rng, vertices, closed, self.positions, self.triangles) if wishes else {}
         options = random_options(rng, len(self.triangles) < 3000)
         hidden = frozenset(self.hidden.tolist())
         return Task(self.surface, self.triangles, given, closed, options, chosen, hidden)
@@ -139,10 +141,10 @@ class Trial:
     def called(self, contours, call):
         self.calls += contours
         self.counts["contours"] += contours
-        return tried(self.counts, call)
+        return attempt(self.counts, call)
 
     def optimize(self, vertices, closed):
-        """One contour, then on from what was found."""
+        """Optimizes a contour, and sometimes the result again."""
         task = self.task(vertices, closed)
         more = {"closed": closed, "options": task.options, **task.wishes}
         found = self.called(1, lambda: mrc.optimize(self.surface, vertices, progress=deadline(), **more))
@@ -159,7 +161,7 @@ class Trial:
     def close(self, chain):
         if len(chain) < 2:
             return
-        loop = tried(self.counts, lambda: mrc.close_contour(self.surface, chain, progress=deadline()))
+        loop = attempt(self.counts, lambda: mrc.close_contour(self.surface, chain, progress=deadline()))
         if loop is not None:
             assert loop[: len(chain)].tolist() == chain.tolist()
             assert len(set(loop.tolist())) == len(loop)
@@ -192,13 +194,13 @@ class Trial:
 def test_every_call_gives_a_valid_result_or_an_error(name):
     positions, triangles = cgal_meshes.read(name)
     counts = Counter()
-    for number, way in enumerate(cgal_meshes.WAYS):
+    for number, variant in enumerate(cgal_meshes.VARIANTS):
         rng = np.random.default_rng([number, len(positions), len(triangles)])
         if len(triangles):
-            trial = Trial(*way(positions, triangles, rng), rng, counts)
+            trial = Trial(*variant(positions, triangles, rng), rng, counts)
             trial.run(CALLS)
             counts["meshes"] += 1
-            assert trial.calls >= CALLS or len(triangles) < 50, f"{way.__name__}: {trial.calls} contours"
+            assert trial.calls >= CALLS or len(triangles) < 50, f"{variant.__name__}: {trial.calls} contours"
     slowest = max(COUNTS["slowest, in ms"], counts["slowest, in ms"])
     COUNTS.update(counts)
     COUNTS["slowest, in ms"] = slowest

@@ -5,8 +5,8 @@ import meshes
 import mrcontour as mrc
 import numpy as np
 import pytest
-from search_space_checks import check_search_space, pairs
 from conftest import realistic_contours, surface_of
+from search_space_checks import check_search_space, pairs
 
 FLOWS = ["gates", "arc_length", "harmonic"]
 
