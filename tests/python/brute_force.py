@@ -4,7 +4,7 @@
 It takes a mesh, a given closed contour and the options. The only input from the module is the increments of the flow on
 the band. Everything else (scales, curvature, energy, admissible turns, levels, and the contours themselves) is computed
 here, simply and slowly, from the equations of Clements (2006). It shares no code with the module, and is meant for
-small meshes. """
+small meshes."""
 
 from collections import defaultdict
 from dataclasses import dataclass

@@ -266,7 +266,8 @@ class PointEnergy:
         return edge - (edge @ normal) * normal
 
     def half(self, q, p, r):
-        """Of the chord pr, at its end q: projection, its direction, length, cosine times length, crease."""
+        """For the chord pr at its end q: its projection, the direction of that, its length, its length times the
+        cosine, and its crease term."""
         if (q, p, r) not in self.halves:
             normal, _, direction, _ = self[q]
             edge = self.projected(p, r, normal)

@@ -86,8 +86,8 @@ def random_energy(rng):
 class Case:
     """A search, both by the module and by enumeration or the independent solver."""
 
-    def __init__(self, mesh, contour, options=None, closed=True, dense=False, **wishes):
-        self.mesh, self.contour, self.closed, self.wishes = mesh, contour, closed, wishes
+    def __init__(self, mesh, contour, options=None, closed=True, dense=False, **constraints):
+        self.mesh, self.contour, self.closed, self.constraints = mesh, contour, closed, constraints
         self.options = {**EXTRA, "flow": "harmonic", "width": 2, **(options or {})}
         self.surface = surface_of(mesh)
         points = [vertex(v) for v in contour]
@@ -112,7 +112,7 @@ class Case:
         }
 
     def optimize(self):
-        return mrc.optimize(self.surface, **self.contour_arguments(), **self.wishes)
+        return mrc.optimize(self.surface, **self.contour_arguments(), **self.constraints)
 
     @cached_property
     def space(self):
@@ -120,9 +120,9 @@ class Case:
 
     @cached_property
     def energy(self):
-        energy = PointEnergy(self.mesh, self.given, self.closed, self.options, self.wishes.get("attractors", ()))
-        if "region_density" in self.wishes:
-            energy.weigh_region(self.space, self.wishes["region_density"])
+        energy = PointEnergy(self.mesh, self.given, self.closed, self.options, self.constraints.get("attractors", ()))
+        if "region_density" in self.constraints:
+            energy.weigh_region(self.space, self.constraints["region_density"])
         return energy
 
     @cached_property
@@ -152,10 +152,10 @@ class Case:
     def required(self):
         """The required vertices and edges; with ends="edges" these include the first and last edge of an open
         contour."""
-        edges = [tuple(map(int, edge)) for edge in self.wishes.get("required_edges", ())]
+        edges = [tuple(map(int, edge)) for edge in self.constraints.get("required_edges", ())]
         if not self.closed and self.options["ends"] == "edges":
             edges += [tuple(map(int, self.contour[:2])), tuple(map(int, self.contour[-2:]))]
-        return [int(v) for v in self.wishes.get("required_vertices", ())], list(dict.fromkeys(edges))
+        return [int(v) for v in self.constraints.get("required_vertices", ())], list(dict.fromkeys(edges))
 
     def holds(self, points):
         vertices, edges = self.required()
@@ -185,7 +185,7 @@ class Case:
         geometry = self.energy.geometry
         if any((b, a) not in geometry.left_face for a, b in geometry.left_face):
             return 0.0
-        triangles, density = geometry.triangles, self.wishes["region_density"]
+        triangles, density = geometry.triangles, self.constraints["region_density"]
         return sum(content for _, content in Enclosed.contents(geometry, triangles, density))
 
     @property
@@ -260,12 +260,12 @@ def check_measure(case, result, length):
         case.surface,
         **case.contour_arguments(points_of(result)),
         scales=result.scales,
-        attractors=case.wishes.get("attractors", ()),
-        region_density=case.wishes.get("region_density"),
+        attractors=case.constraints.get("attractors", ()),
+        region_density=case.constraints.get("region_density"),
     )
     off = abs(again.ratio - result.ratio)
     shift = 0.0
-    if "region_density" in case.wishes and off > case.rounding * case.energy.K:
+    if "region_density" in case.constraints and off > case.rounding * case.energy.K:
         # Two loops around a torus bound two parts of it, and only the band of the search tells which is meant.
         shift = abs(case.energy.region_factor() * case.whole_content() / length)
     assert abs(off - shift) <= 1e-12 * (abs(result.ratio) + shift) + 1e-15 * case.energy.K

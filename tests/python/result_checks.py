@@ -20,7 +20,7 @@ class Task:
     given: list
     closed: bool
     options: mrc.Options
-    wishes: dict = field(default_factory=dict)
+    constraints: dict = field(default_factory=dict)
     hidden: frozenset = frozenset()
     faces: list | None = None  # None if the triangles are the faces
 
@@ -42,7 +42,7 @@ def check_result(task, result):
     check_segment_faces(task, result, points)
     check_status(task, result, points)
     if result.status != "cancelled":
-        assert passes(points, result.closed, task.wishes)
+        assert passes(points, result.closed, task.constraints)
         check_ends(task, points)
         check_measure(task, result)
 
@@ -65,7 +65,7 @@ def check_numbers(result):
 
 def check_status(task, result, points):
     """A result is never worse than the given contour, unless that breaks a requirement."""
-    meant = passes(task.given, task.closed, task.wishes)
+    meant = passes(task.given, task.closed, task.constraints)
     if result.status == "improved":
         assert meant
         assert result.objective < result.initial_objective
@@ -79,15 +79,15 @@ def check_status(task, result, points):
         assert len(result.reason) >= 10 or runs == 0
 
 
-def passes(points, closed, wishes):
+def passes(points, closed, constraints):
     """Whether a contour passes all required elements."""
     chords = list(pairwise([*points, points[0]] if closed else points))
-    for a, b in wishes.get("required_edges", ()):
+    for a, b in constraints.get("required_edges", ()):
         along = [chord for chord in chords if edge_of(*chord) == tuple(sorted((int(a), int(b))))]
         covered = {point for chord in along for point in chord}
         if not {vertex(a), vertex(b)} <= covered or len(along) != len(covered) - 1:
             return False
-    return {vertex(v) for v in wishes.get("required_vertices", ())} <= set(points)
+    return {vertex(v) for v in constraints.get("required_vertices", ())} <= set(points)
 
 
 def check_ends(task, points):
@@ -116,9 +116,9 @@ def check_segment_faces(task, result, points):
 
 def check_measure(task, result):
     """The ratio of the result is that of its contour. The enclosed integral is relative to the given contour."""
-    if "region_density" in task.wishes:
+    if "region_density" in task.constraints:
         return
-    more = {"attractors": task.wishes.get("attractors", ()), "scales": result.scales}
+    more = {"attractors": task.constraints.get("attractors", ()), "scales": result.scales}
     measured = mrc.measure(task.surface, result, result.closed, options=task.options, **more)
     size = max(abs(measured.ratio), abs(result.ratio), result.scales.K)
     assert abs(measured.ratio - result.ratio) <= 1e-6 * size

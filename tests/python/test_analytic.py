@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces whose best contour is known: parallels of surfaces of revolution and sharp valleys, under triangulations
-that do not know of them; three-sided prisms; thin plates."""
+"""Surfaces whose best contour is known: parallels of surfaces of revolution and sharp valleys, with triangulations that
+do not follow them; three-sided prisms; thin plates."""
 
 import meshes
 import mrcontour as mrc
@@ -11,8 +11,8 @@ from contour_energy import points_of
 
 
 def revolved(radius, half, edge, rng, mean_radius=1.0):
-    """A surface round the z axis for heights from -half to half: jittered vertices, random triangles. The radius is a
-    function of the height and of the angle. Also returns a zigzag contour at about a height."""
+    """A surface around the z axis for heights from -half to half, with jittered vertices and random triangles. The
+    radius is a function of height and angle. Also returns a zigzag contour at about a given height."""
     step, columns = 0.8 * edge, round(2 * np.pi * mean_radius / edge)
     rows = round(2 * half / step)
     mesh = meshes.tube(np.ones(rows), columns, split_share=1.0, rng=rng)
@@ -35,7 +35,8 @@ def optimize(mesh, contour, **options):
 
 
 def test_finds_the_waist_of_a_hyperboloid():
-    """x^2 + y^2 = 1 + z^2: within an edge length of the waist, and closer as edges shrink and k grows."""
+    """x^2 + y^2 = 1 + z^2: the contour is within an edge length of the waist, and closer for shorter edges and larger
+    k."""
     away = []
     for edge, k in ((0.5, 1), (0.25, 2), (0.125, 3)):
         mesh, contour_at = revolved(lambda z, _: np.sqrt(1 + z**2), 1.5, edge, np.random.default_rng(1))
@@ -46,7 +47,7 @@ def test_finds_the_waist_of_a_hyperboloid():
 
 
 class Profile:
-    """A wide waist, where the surface is thinnest, and a lopsided groove, where it is most concave."""
+    """A wide waist, where the surface is thinnest, and an asymmetric groove, where it is most concave."""
 
     def __init__(self, rng):
         self.waist, self.groove = rng.permutation([-1.6, 1.6])
@@ -59,20 +60,20 @@ class Profile:
         return 1 - self.waist_depth * np.exp(-(((z - self.waist) / 1.3) ** 2)) - groove
 
     def kappa_min(self, z, step=1e-4):
-        """The lesser of the two principal curvatures: along the parallel 1 / (r sqrt(1 + r'^2)), along the profile
-        -r'' / (1 + r'^2)^(3/2). It is the ratio that eq. 3.2 gives a parallel, where it is negative."""
+        """The smaller principal curvature: 1 / (r sqrt(1 + r'^2)) along the parallel, -r'' / (1 + r'^2)^(3/2) along the
+        profile. Where it is negative, it is the ratio of the parallel by eq. 3.2."""
         low, r, high = self.radius(z - step), self.radius(z), self.radius(z + step)
         slope, bend = (high - low) / (2 * step), (high - 2 * r + low) / step**2
         return np.minimum(-bend / (1 + slope**2) ** 1.5, 1 / (r * np.sqrt(1 + slope**2)))
 
     def heights(self):
-        """Of the lowest kappa_min and of the least radius."""
+        """The heights of the lowest kappa_min and of the smallest radius."""
         z = np.linspace(-2.7, 2.7, 20001)
         return z[np.argmin(self.kappa_min(z))], z[np.argmin(self.radius(z))]
 
 
 def search(profile, edge, rng, **options):
-    """From half way between the groove and the waist, in a band that reaches beyond both."""
+    """Searches from halfway between the groove and the waist, in a band that reaches beyond both."""
     mesh, contour_at = revolved(profile.radius, 3.0, edge, rng)
     return optimize(mesh, contour_at(0.0), width=round(2.6 / (0.8 * edge)), **options)
 
@@ -85,7 +86,7 @@ def test_finds_the_most_concave_parallel_not_the_thinnest(seed, k):
     profile = Profile(rng)
     concave, thinnest = profile.heights()
     assert profile.radius(concave) > 1.1 * profile.radius(thinnest)
-    assert abs(concave - profile.groove) > 0.5 * edge  # it is lopsided
+    assert abs(concave - profile.groove) > 0.5 * edge  # the groove is asymmetric
     result = search(profile, edge, rng, refinement=k)
     assert abs(result.positions[:, 2] - concave).max() <= edge
 
@@ -94,7 +95,7 @@ def test_finds_the_most_concave_parallel_not_the_thinnest(seed, k):
 @pytest.mark.parametrize("k", [0, 1])
 @pytest.mark.parametrize("seed", range(2))
 def test_ratio_tends_to_the_lowest_curvature(seed, k):
-    """What the disk B and the smoothing average over shrinks with the edges, and with it the error."""
+    """The area that the disk B and the smoothing average over shrinks with the edges, and so does the error."""
     rng = np.random.default_rng(seed)
     profile = Profile(rng)
     lowest = profile.kappa_min(profile.heights()[0])
@@ -122,7 +123,7 @@ def test_bulge_is_a_ridge_and_not_a_valley(seed, k):
 
 
 def sampled(points, step):
-    """Points of a closed polyline, at most a step apart."""
+    """Points along a closed polyline, at most a step apart."""
     ahead = np.roll(points, -1, axis=0) - points
     counts = np.ceil(np.linalg.norm(ahead, axis=1) / step).astype(int)
     shares = np.concatenate([np.arange(count) / count for count in counts])
@@ -138,7 +139,7 @@ def hausdorff(one, two, step):
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(7))
 def test_sharp_valley_is_found_under_any_triangulation(seed):
-    """The valley is a slanted curve; the triangulations know nothing of it or of each other."""
+    """The valley is a slanted curve; neither triangulation follows it, and they are independent of each other."""
     tilt, slope, phase = np.random.default_rng(seed).uniform([0.2, 0.4, 0.0], [0.6, 0.8, 2 * np.pi])
 
     def radius(z, angle):
@@ -172,8 +173,8 @@ def test_ring_around_a_three_sided_prism_is_legal(seed, k):
 
 
 def plate(rng, below=None):
-    """A sheet with a hump, alone or with a rough second sheet close below it, to which its border joins it. Also a loop
-    of edges round the hump."""
+    """A sheet with a hump, alone or joined at its border to a rough second sheet close below it. Also returns a loop of
+    edges around the hump."""
     count, edge = 33, 0.1
     y, x = (edge * (a - count // 2 + rng.uniform(-0.2, 0.2, (count, count))) for a in np.indices((count, count)))
     z = rng.uniform(0.2, 0.4) * np.exp(-((x**2 + rng.uniform(0.5, 1.0) * y**2) / 0.16))

@@ -226,25 +226,21 @@ def test_arbitrary_option_names(name, value):
     allowed(lambda: mrc.Options(**{name: value}))
 
 
-# ---- wishes, and several contours
+# ---- constraints, and several contours
 
-wish_values = {
-    "required_vertices": indices,
-    "required_edges": edges,
-    "barriers": edges,
-    "attractors": st.one_of(anything, st.lists(st.tuples(st.integers(-1, 45), st.floats(), st.floats()), max_size=3)),
-    "region_density": st.one_of(anything, arrays.arrays(np.float64, 36, elements=st.floats())),
-    "scales": st.one_of(anything, st.just(mrc.optimize(SURFACE, RING).scales)),
-}
-wishes = st.sampled_from([*wish_values]).flatmap(lambda name: st.tuples(st.just(name), wish_values[name]))
+constraint_values = { "required_vertices": indices, "required_edges": edges, "barriers": edges, "attractors":
+st.one_of(anything, st.lists(st.tuples(st.integers(-1, 45), st.floats(), st.floats()), max_size=3)), "region_density":
+st.one_of(anything, arrays.arrays(np.float64, 36, elements=st.floats())), "scales": st.one_of(anything,
+st.just(mrc.optimize(SURFACE, RING).scales)), } constraints = st.sampled_from([*constraint_values]).flatmap(lambda name:
+st.tuples(st.just(name), constraint_values[name]))
 
 
 @examples(400)
-@given(wish=wishes, weight=st.sampled_from([0.0, 1.0, -1e50]))
-def test_arbitrary_constraints(wish, weight):
+@given(constraint=constraints, weight=st.sampled_from([0.0, 1.0, -1e50]))
+def test_arbitrary_constraints(constraint, weight):
     """With the largest weights, what is better is a matter of rounding."""
     options = mrc.Options(width=2, region_weight=weight)
-    result = allowed(lambda: mrc.optimize(SURFACE, RING, options=options, **dict([wish])))
+    result = allowed(lambda: mrc.optimize(SURFACE, RING, options=options, **dict([constraint])))
     if result is not None:
         (check_numbers if abs(weight) <= 1 else check_finite)(result)
 
@@ -253,10 +249,10 @@ def test_arbitrary_constraints(wish, weight):
 @given(
     contours=st.one_of(anything, st.lists(st.one_of(st.just(RING), st.just(RING - 6), indices), max_size=3)),
     closed=st.one_of(st.booleans(), anything),
-    wish=st.one_of(wishes, st.just(("closed", True))),
+    constraint=st.one_of(constraints, st.just(("closed", True))),
 )
-def test_arbitrary_lists_of_contours(contours, closed, wish):
-    more = {"closed": closed, "options": mrc.Options(width=2), **dict([wish])}
+def test_arbitrary_lists_of_contours(contours, closed, constraint):
+    more = {"closed": closed, "options": mrc.Options(width=2), **dict([constraint])}
     results = allowed(lambda: mrc.optimize_all(SURFACE, contours, **more))
     for result in results or ():
         check_numbers(result)

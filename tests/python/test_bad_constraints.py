@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bad input to refinement, open contours, constraints and weights: an error that names what is wrong."""
+"""Bad input to refinement, open contours, constraints and weights gives an error that names what is wrong."""
 
 import meshes
 import mrcontour as mrc
@@ -18,10 +18,10 @@ def ring(row):
     return row * COLUMNS + np.arange(COLUMNS, dtype=np.int32)
 
 
-def optimize(contour=None, closed=True, options=None, mesh=None, **wishes):
+def optimize(contour=None, closed=True, options=None, mesh=None, **constraints):
     options = mrc.Options(**{"flow": "harmonic", "width": 2, **(options or {})})
     contour = ring(4) if contour is None else contour
-    return mrc.optimize(surface_of(mesh or tube()), contour, closed=closed, options=options, **wishes)
+    return mrc.optimize(surface_of(mesh or tube()), contour, closed=closed, options=options, **constraints)
 
 
 def diagonal(mesh):
@@ -34,37 +34,37 @@ def diagonal(mesh):
     raise AssertionError("no diagonal")
 
 
-WISHES = {
+BAD_CONSTRAINTS = {
     "required vertex out of range": ({"required_vertices": [72]}, "72"),
     "required vertex negative": ({"required_vertices": [-1]}, "-1"),
     "required vertex outside the band": ({"required_vertices": [70]}, "70"),
-    "required vertices not whole": ({"required_vertices": [33.5]}, "required_vertices"),
+    "fractional required vertices": ({"required_vertices": [33.5]}, "required_vertices"),
     "required edge outside the band": ({"required_edges": [(64, 65)]}, "6[45]"),
     "required edge out of range": ({"required_edges": [(33, 100)]}, "100"),
-    "required edge of one vertex": ({"required_edges": [(33, 33)]}, "33"),
-    "required edge that is none": ({"required_edges": [(33, 36)]}, "33.*36|36.*33"),
+    "required edge with equal ends": ({"required_edges": [(33, 33)]}, "33"),
+    "required edge that does not exist": ({"required_edges": [(33, 36)]}, "33.*36|36.*33"),
     "required edge that is a diagonal": (
         {"required_edges": [diagonal(tube())]},
         "{}".format("|".join(map(str, diagonal(tube())))),
     ),
-    "required edges of three": ({"required_edges": [(33, 34, 35)]}, "required_edges"),
+    "required edge with three vertices": ({"required_edges": [(33, 34, 35)]}, "required_edges"),
     "attractor out of range": ({"attractors": [(72, 1.0, 1.0)]}, "72"),
-    "attractor of negative radius": ({"attractors": [(33, -1.0, 1.0)]}, "radius"),
-    "attractor of radius NaN": ({"attractors": [(33, np.nan, 1.0)]}, "radius"),
-    "attractor of infinite strength": ({"attractors": [(33, 1.0, np.inf)]}, "strength"),
-    "attractor of strength NaN": ({"attractors": [(33, 1.0, np.nan)]}, "strength"),
-    "attractor of negative sigma": ({"attractors": [(33, 1.0, 1.0, -1.0)]}, "sigma"),
-    "attractor of two numbers": ({"attractors": [(33, 1.0)]}, "attractor"),
-    "barrier that is no edge": ({"barriers": [(33, 36)]}, "33.*36|36.*33"),
+    "attractor with negative radius": ({"attractors": [(33, -1.0, 1.0)]}, "radius"),
+    "attractor with radius NaN": ({"attractors": [(33, np.nan, 1.0)]}, "radius"),
+    "attractor with infinite strength": ({"attractors": [(33, 1.0, np.inf)]}, "strength"),
+    "attractor with strength NaN": ({"attractors": [(33, 1.0, np.nan)]}, "strength"),
+    "attractor with negative sigma": ({"attractors": [(33, 1.0, 1.0, -1.0)]}, "sigma"),
+    "attractor with only two numbers": ({"attractors": [(33, 1.0)]}, "attractor"),
+    "barrier that is not an edge": ({"barriers": [(33, 36)]}, "33.*36|36.*33"),
     "barrier out of range": ({"barriers": [(33, 100)]}, "100"),
 }
 
 
-@pytest.mark.parametrize("name", WISHES)
+@pytest.mark.parametrize("name", BAD_CONSTRAINTS)
 def test_bad_constraints_are_named(name):
-    wishes, pattern = WISHES[name]
+    constraints, pattern = BAD_CONSTRAINTS[name]
     with pytest.raises((ValueError, TypeError), match=pattern):
-        optimize(**wishes)
+        optimize(**constraints)
 
 
 OPTIONS = {
@@ -126,7 +126,7 @@ def test_graph_that_does_not_fit_in_memory_is_refused(k):
 
 
 def test_required_vertices_on_one_flow_level_are_infeasible():
-    """Two vertices on one level of the flow; the error names one of them."""
+    """The error names one of the vertices."""
     mesh = meshes.tube(np.ones(9), COLUMNS)
     with pytest.raises(mrc.Infeasible, match=r"stops at vertex \d|cannot even begin"):
         optimize(mesh=mesh, required_vertices=[33, 49, 42, 26], options={"max_turn": 0.5})
@@ -140,7 +140,7 @@ def test_required_edges_across_one_flow_level_are_infeasible():
 
 
 def test_contour_across_a_barrier_is_refused():
-    """It runs through the middles of the edges between two rows."""
+    """The contour runs through the midpoints of the edges between two rows."""
     mesh = meshes.tube(np.ones(9), COLUMNS, split_share=1.0)
     between = [t for t in mesh.triangles.tolist() if {v // COLUMNS for v in t} == {4, 5}]
     crossed = {frozenset((a, b)) for t in between for a in t for b in t if a // COLUMNS == 4 and b // COLUMNS == 5}
@@ -159,8 +159,8 @@ REFINED = {
     "parameter negative": ([(v, v) for v in range(32, 39)] + [(39, 32)], [0] * 7 + [-0.5], "-0.5"),
     "parameter NaN": ([(v, v) for v in range(32, 39)] + [(39, 32)], [0] * 7 + [np.nan], "nan|NaN|finite"),
     "no edge": ([(v, v) for v in range(32, 39)] + [(39, 50)], [0] * 7 + [0.5], "39|50"),
-    "points of no common face": ([(32, 33), (36, 37), (34, 42)], [0.5, 0.5, 0.5], r"\d"),
-    "a point twice": ([(v, v) for v in range(32, 40)] + [(39, 39)], [0] * 9, "39"),
+    "consecutive points without a common face": ([(32, 33), (36, 37), (34, 42)], [0.5, 0.5, 0.5], r"\d"),
+    "repeated point": ([(v, v) for v in range(32, 40)] + [(39, 39)], [0] * 9, "39"),
 }
 
 
@@ -179,7 +179,7 @@ def test_vertices_and_points_are_mutually_exclusive():
 
 
 def test_whole_surface_band_reaches_the_border_on_the_other_side():
-    """A disk with a hole: one side of the contour is a border at once, the other goes on to the border outside."""
+    """A disk with a hole: on one side of the contour is the border, on the other the band reaches the outer border."""
     rng = np.random.default_rng(2)
     mesh = meshes.jittered_annulus(rng, 6, 9)
     for k in (0, 1):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The best contour is a border of the band: the innermost or the outermost of all that are searched is found, too."""
+"""The optimum may lie on the boundary of the band: the innermost and outermost contours are searched, too."""
 
 import meshes
 import numpy as np
@@ -11,8 +11,8 @@ FLOWS = ["gates", "arc_length", "harmonic"]
 
 
 def funnel(rng, rows, corner):
-    """Quads and triangles round a cone that opens more widely from one ring on: its only concave place. The rings above
-    are wider, those below are narrower."""
+    """Quads and triangles around a cone that opens more widely from one ring on, its only concave place. The rings
+    above are wider, those below narrower."""
     columns = int(rng.integers(9, 13))
     slopes = np.where(np.arange(rows) < corner, rng.uniform(0.02, 0.15), rng.uniform(0.9, 1.5))
     step = 2 * np.pi / columns * rng.uniform(0.7, 1.0)
@@ -29,7 +29,7 @@ def funnel(rng, rows, corner):
 @pytest.mark.parametrize("flow", FLOWS)
 @pytest.mark.parametrize("seed", range(3))
 def test_finds_an_optimum_on_the_band_boundary(seed, flow, side, k):
-    """The funnel's corner is the widest ring of the band (its given contour lies below) or the narrowest."""
+    """The concave ring is the widest of the band (with the given contour below it) or the narrowest."""
     width = 1 + seed % 3
     given, rows = width + 3, 2 * width + 7
     corner = given + side * width

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A cancel at any moment leaks nothing, and the surface and its arrays are as they were."""
+"""Cancelling at any moment leaks nothing, and leaves the surface and its arrays unchanged."""
 
 import ctypes
 import gc
@@ -12,9 +12,9 @@ import pytest
 from conftest import surface_of
 from fingerprints import bytes_of
 
-CANCELS = 1000 if os.environ.get("MRC_LONG") else 120  # of all three kinds together
-WARM_UP = 60  # after which allocators and caches have what they keep
-ALLOWED = 64 * 1024  # bytes: less than one search holds, and noise
+CANCELS = 1000 if os.environ.get("MRC_LONG") else 120  # in total, over all three kinds
+WARM_UP = 60  # cancels until allocators and caches hold what they keep
+ALLOWED = 64 * 1024  # bytes: more than noise, less than one search holds
 
 
 class Stopped(Exception):
@@ -22,7 +22,7 @@ class Stopped(Exception):
 
 
 class AllocatedBytes(ctypes.Structure):
-    """glibc's struct mallinfo2."""
+    """The struct mallinfo2 of glibc."""
 
     _fields_ = [(name, ctypes.c_size_t) for name in ("arena", "ordblks", "smblks", "hblks", "hblkhd", "usmblks")] + [
         (name, ctypes.c_size_t) for name in ("fsmblks", "uordblks", "fordblks", "keepcost")
@@ -30,7 +30,7 @@ class AllocatedBytes(ctypes.Structure):
 
 
 def allocated():
-    """What malloc has handed out and not got back; 0 where the system does not tell."""
+    """The bytes that malloc handed out and were not freed; 0 if the system does not tell."""
     try:
         ask = ctypes.CDLL(None).mallinfo2
     except (AttributeError, OSError, TypeError):
@@ -55,7 +55,7 @@ def several(surface, threads, progress):
 
 
 def closing(surface, threads, progress):
-    """Enough vertices for progress to be heard."""
+    """On enough vertices for progress to be called."""
     loop = mrc.close_contour(surface, RINGS[0][:5], progress=progress)
     return [] if loop is None else one(surface, threads, None)
 
@@ -64,7 +64,7 @@ CALLS = (one, several, closing)
 
 
 class Canceller:
-    """Cancels at the n-th call, by an answer or by an exception."""
+    """Cancels at the n-th call, by its return value or by an exception."""
 
     def __init__(self, at, by_exception):
         self.at, self.by_exception, self.heard = at, by_exception, 0
@@ -76,14 +76,14 @@ class Canceller:
         return self.heard != self.at
 
 
-def times_heard(call, surface):
+def count_calls(call, surface):
     listener = Canceller(0, False)
     call(surface, 1, listener)
     return listener.heard
 
 
 def cancel_once(rng, surface, call, longest):
-    """At a random call of progress. Whether the cancel came in time to end the work."""
+    """Cancels at a random call of progress. Returns whether that ended the work."""
     canceller = Canceller(int(rng.integers(1, longest + 1)), bool(rng.integers(2)))
     threads = int(rng.choice([1, 2, 3]))
     try:
@@ -103,7 +103,7 @@ def test_cancelling_at_a_random_moment_leaks_nothing_and_keeps_the_mesh():
     arrays = [np.array(part) for part in MESH.arguments()]
     surface = mrc.Surface(*arrays)
     before = {call: list(map(bytes_of, call(surface, 1, None))) for call in CALLS}
-    longest = {call: times_heard(call, surface) for call in CALLS}
+    longest = {call: count_calls(call, surface) for call in CALLS}
     ended, held = 0, 0
     for number in range(WARM_UP + CANCELS):
         if number == WARM_UP:
@@ -121,7 +121,7 @@ def test_cancelling_at_a_random_moment_leaks_nothing_and_keeps_the_mesh():
 
 
 def test_leak_measurement_sees_memory_that_is_kept():
-    """Otherwise the measure above would show nothing."""
+    """Otherwise the measurement above would prove nothing."""
     held = allocated()
     if not held:
         pytest.skip("the allocator does not tell")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which C++ files the usual lint checks."""
+"""The selection of the C++ files that the usual lint checks."""
 
 import sys
 from pathlib import Path

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Open chains closed round the limb that they lie on."""
+"""Open chains are closed around the limb that they lie on."""
 
 import meshes
 import mrcontour as mrc
@@ -12,7 +12,7 @@ COLUMNS = 28
 
 
 def grid_limb(kind, rng, rows=45):
-    """A limb of `rows` rings whose axis is z, bent ones apart, triangles and quads mixed, with noise."""
+    """A limb of `rows` rings along the z axis (unless bent), of triangles and quads, with noise."""
     along = np.arange(rows) / (rows - 1)
     radius = {
         "cylinder": np.full(rows, 1.0),
@@ -24,7 +24,7 @@ def grid_limb(kind, rng, rows=45):
 
 
 def limb(rng):
-    """A random limb with the center and two directions of a plane that its axis crosses, in the middle of it."""
+    """A random limb, with the center and two directions of a plane across its axis, in the middle."""
     kind = rng.choice(["cylinder", "cone", "grooved", "tapering", "bent"])
     if kind != "bent":
         return grid_limb(kind, rng), np.zeros(3), np.eye(3)[:2]
@@ -42,7 +42,7 @@ def length_of(mesh, contour, closed=True):
 
 
 def part_of(mesh, ring, share, rng):
-    """A chain along a ring, from a random place on, that has this share of its length; in a random direction."""
+    """A chain along a ring that has this fraction of its length, from a random place in a random direction."""
     ring = np.roll(ring, rng.integers(len(ring)))
     steps = np.linalg.norm(np.diff(mesh.positions[np.append(ring, ring[0])], axis=0), axis=1)
     count = max(2, int(np.searchsorted(np.cumsum(steps), share * steps.sum())) + 1)
@@ -50,7 +50,7 @@ def part_of(mesh, ring, share, rng):
 
 
 def winding(mesh, loop, center, plane):
-    """How often a loop goes round the axis through the center."""
+    """How many times a loop goes around the axis through the center."""
     x, y = plane @ (mesh.positions[loop] - center).T
     steps = np.diff(np.unwrap(np.arctan2(np.append(y, y[0]), np.append(x, x[0]))))
     return round(steps.sum() / (2 * np.pi))
@@ -61,7 +61,7 @@ def edges_of(loop):
 
 
 def check_simple(mesh, loop, chain):
-    """It begins with the chain, passes no vertex twice, and follows the mesh's edges."""
+    """The loop begins with the chain, passes no vertex twice, and follows mesh edges."""
     np.testing.assert_array_equal(loop[: len(chain)], chain)
     assert len(set(loop.tolist())) == len(loop)
     assert edges_of(loop) <= {frozenset(pair) for pair in mesh.real_edges().tolist()}
@@ -82,7 +82,7 @@ def test_part_of_a_ring_is_closed_once_around_the_limb(share):
 
 @pytest.mark.parametrize("count", [2, 3, 4, 27])
 def test_shortest_and_longest_chains_are_closed(count):
-    """A single edge of a straight ring is enough, and a ring that lacks one edge takes just this."""
+    """A single edge of a straight ring is enough, and a ring without one edge is completed by that edge."""
     for seed in range(10):
         rng = np.random.default_rng(seed)
         mesh = grid_limb(rng.choice(["cylinder", "grooved"]), rng)
@@ -107,7 +107,7 @@ def test_chain_is_closed_around_the_tube_of_a_torus():
 
 
 def test_chain_is_closed_around_a_thin_limb():
-    """A flat section, four times as wide as thick."""
+    """The section is flat, four times as wide as thick."""
     for seed in range(20):
         rng = np.random.default_rng(seed)
         mesh = grid_limb("cylinder", rng)
@@ -130,7 +130,7 @@ def test_chain_is_closed_around_a_finger_not_over_its_tip():
 
 
 def test_reversal_gives_the_same_loop():
-    """Also where many paths are equally short."""
+    """This holds even if many paths are equally short."""
     for seed in range(20):
         rng = np.random.default_rng(seed)
         mesh = meshes.tube(np.full(30, 1.0), COLUMNS, step=0.2) if seed % 2 else limb(rng)[0]
@@ -157,7 +157,7 @@ def test_rigid_motion_scale_and_renumbering_change_nothing():
 
 
 def test_faces_far_away_change_nothing():
-    """The same limb, three times as long."""
+    """A limb three times as long gives the same loop."""
     for seed in range(10):
         rng = np.random.default_rng(seed)
         mesh = grid_limb("grooved", rng)
@@ -173,7 +173,7 @@ def test_faces_far_away_change_nothing():
 
 @pytest.mark.parametrize("share", SHARES)
 def test_optimization_finds_the_groove_from_part_of_a_ring(share):
-    """Where the chain lies within three rings of the groove, wherever it begins."""
+    """This holds if the chain lies within three rings of the groove, wherever it begins."""
     options = mrc.Options(flow="harmonic", width=8, iterations=2, length_bias=2.0, anchor=0.5)
     for seed in range(70):
         rng = np.random.default_rng([seed, round(100 * share)])
@@ -184,7 +184,7 @@ def test_optimization_finds_the_groove_from_part_of_a_ring(share):
         assert np.abs(np.asarray(result.vertices) // COLUMNS - 22).max() <= 1, seed
 
 
-# ---- what cannot be closed
+# ---- chains that cannot be closed, and cancelling
 
 
 def plane(rows=12, columns=15):
@@ -213,7 +213,7 @@ def test_closing_can_be_cancelled_at_once():
 
 
 def test_long_vain_search_can_be_cancelled():
-    """All that can be reached is searched before nothing is found; progress is heard meanwhile."""
+    """Everything within reach is searched before the chain is refused, and progress is called meanwhile."""
     plane = meshes.polygon_mesh(*flat_sheet(160))
     shares = []
     with pytest.raises(ValueError, match="nothing leads"):
@@ -240,7 +240,7 @@ def test_chain_on_a_plane_cannot_be_closed():
 
 
 def test_hidden_faces_and_slits_are_not_crossed():
-    """A slit all along the limb's other side, or hidden faces there, leave no way round."""
+    """A slit along the whole opposite side of the limb, or hidden faces there, leave no path around."""
     mesh = meshes.tube(np.full(20, 1.0), COLUMNS, step=0.2)
     chain = np.arange(5, 10) + 10 * COLUMNS
     behind = [i for i, face in enumerate(mesh.faces) if {v % COLUMNS for v in face} & {20, 21}]

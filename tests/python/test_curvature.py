@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Curvature (thesis 3.4) against analytic values, and against the plain second implementation."""
+"""Curvature (thesis 3.4) against analytic values, and against the independent implementation."""
 
 import meshes
 import mrcontour as mrc
@@ -14,7 +14,7 @@ def curvature(mesh, **options):
 
 
 def height_field(size, count, height, rng=None, jitter=0.0):
-    """A triangulated square around the origin, with its middle vertex there."""
+    """A triangulated square whose middle vertex is at the origin."""
     axis = np.linspace(-size, size, 2 * count + 1)
     y, x = np.meshgrid(axis, axis, indexing="ij")
     if rng is not None:
@@ -30,7 +30,7 @@ def vertices_inside(mesh, reach):
 
 
 def along(directions, axis):
-    """Absolute cosines to an axis."""
+    """Absolute cosines of the angles to an axis."""
     return np.abs(directions @ (np.asarray(axis, dtype=float) / np.linalg.norm(axis)))
 
 
@@ -59,8 +59,8 @@ def test_matches_the_independent_implementation(body, radius, smoothing, rng):
 
 
 def shrinking_disk(mesh, radius):
-    """Averages over a disk of the given radius only. What converges is the average over a disk that shrinks more slowly
-    than the edges: a disk of 1.6 h, however fine, keeps the error of its few edges."""
+    """Options that average over a disk of the given radius only. Convergence needs a disk that shrinks more slowly than
+    the edges: a disk of 1.6 h keeps the error of its few edges, however fine the mesh."""
     edges = mesh.real_edges()
     h = np.linalg.norm(mesh.positions[edges[:, 0]] - mesh.positions[edges[:, 1]], axis=1).mean()
     return curvature(mesh, curvature_radius=radius / h, curvature_smoothing=0.0)
@@ -102,7 +102,8 @@ def test_torus_converges():
 
 
 def test_torus_principal_directions():
-    """kappa_min is negative on the inner side; its direction runs round the hole, kappa_max's round the tube."""
+    """kappa_min is negative on the inner side. Its direction runs around the hole, that of kappa_max around the
+    tube."""
     mesh = meshes.torus(48, 192)
     found = curvature(mesh)
     inner = np.linalg.norm(mesh.positions[:, :2], axis=1) < 2.9
@@ -115,7 +116,7 @@ def test_torus_principal_directions():
 
 @pytest.mark.parametrize("axis", [(1.0, 0.0), (0.6, 0.8)])
 def test_concave_crease_is_negative_with_direction_along_it(axis, rng):
-    """A sharp groove: kappa_min < 0 in it, and the direction of kappa_max runs along it."""
+    """In a sharp groove kappa_min < 0, and the direction of kappa_max runs along it."""
     mesh = height_field(1, 10, lambda x, y: 0.8 * np.abs(axis[1] * x - axis[0] * y), rng, 0.1)
     found = curvature(mesh)
     off = np.abs(axis[1] * mesh.positions[:, 0] - axis[0] * mesh.positions[:, 1])
@@ -164,7 +165,7 @@ def test_rigid_motion_changes_nothing(rng):
 
 
 def bowl(gap=None):
-    """A shallow bowl, alone or with a second sheet close below it that hangs together with it at the border only."""
+    """A shallow bowl, alone or with a second sheet close below it that is connected to it only at the border."""
     sheet = height_field(1, 12, lambda x, y: 0.15 * (x**2 + 0.5 * y**2))
     if gap is None:
         return sheet, np.arange(len(sheet.positions))
@@ -185,7 +186,7 @@ def test_other_side_of_a_thin_plate_does_not_count():
     sheet, _ = bowl()
     plate, upper = bowl(gap=0.01)
     inside = vertices_inside(sheet, 0.45)
-    # The same h, so that the disks are the same.
+    # The same h gives the same disks.
     geometry = [Geometry(mesh) for mesh in (sheet, plate)]
     h = [g.mean_edge(set(range(len(g.x)))) for g in geometry]
     one = curvature(sheet, curvature_radius=1.6 / h[0] * 0.1, curvature_smoothing=0.1 / h[0])
@@ -218,7 +219,7 @@ def test_hidden_faces_contribute_to_curvature(rng):
 
 
 def test_curvature_is_finite_on_degenerate_meshes(rng):
-    """Borders, zero-area faces, zero-length edges, a fold flat onto itself, a vertex of no face."""
+    """Borders, zero-area faces, zero-length edges, a flat fold, and a vertex without faces."""
     positions = np.array(
         [[0, 0, 0], [1, 0, 0], [2, 0, 0], [1, 1, 0], [1, 1, 0], [0, 2, 0], [2, 2, 0], [1, -1, 0], [9, 9, 9]],
         dtype=float,

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every public name says what it is: the module's, with units, types and defaults, and those of the add-on's api."""
+"""Every public name is documented: those of the module, with units, types and defaults, and those of the add-on's
+api."""
 
 import ast
 import inspect
@@ -18,7 +19,7 @@ CLASSES = [name for name in vars(mrc) if inspect.isclass(getattr(mrc, name))]
 
 
 def words(item):
-    """A docstring without the line with the signature that pybind11 puts before it."""
+    """A docstring without the signature line that pybind11 adds."""
     lines = (item.__doc__ or "").splitlines()
     return "\n".join(line for line in lines if not re.match(r"\w*\(.*\) -> ", line)).strip()
 

@@ -66,15 +66,15 @@ def random_constraints(rng, contour, closed, positions, triangles):
     near = near[rng.integers(len(near), size=4)]
     i = int(rng.integers(len(contour) - 1))
     reach = 3 * np.linalg.norm(positions[contour[i]] - positions[contour[i + 1]]) + 1e-9
-    wishes = {
+    constraints = {
         "required_vertices": [int(rng.choice([contour[i], near[0, 0]]))],
         "required_edges": [contour[i : i + 2].tolist()],
         "attractors": [(int(near[1, 1]), reach, rng.uniform(-2, 2))],
         "barriers": near[2:, :2].tolist(),
     }
     if closed:
-        wishes["region_density"] = rng.uniform(0, 1, len(triangles))
-    return {name: value for name, value in wishes.items() if rng.random() < 0.2}
+        constraints["region_density"] = rng.uniform(0, 1, len(triangles))
+    return {name: value for name, value in constraints.items() if rng.random() < 0.2}
 
 
 def deadline():
@@ -131,9 +131,9 @@ class Trial:
             for vertices, closed in contours[:2]:
                 self.optimize(vertices, closed)
 
-    def task(self, vertices, closed, wishes=True):
+    def task(self, vertices, closed, constraints=True):
         rng, given = self.rng, [vertex(v) for v in vertices]
-        chosen = random_constraints(rng, vertices, closed, self.positions, self.triangles) if wishes else {}
+        chosen = random_constraints(rng, vertices, closed, self.positions, self.triangles) if constraints else {}
         options = random_options(rng, len(self.triangles) < 3000)
         hidden = frozenset(self.hidden.tolist())
         return Task(self.surface, self.triangles, given, closed, options, chosen, hidden)
@@ -146,11 +146,11 @@ class Trial:
     def optimize(self, vertices, closed):
         """Optimizes a contour, and sometimes the result again."""
         task = self.task(vertices, closed)
-        more = {"closed": closed, "options": task.options, **task.wishes}
+        more = {"closed": closed, "options": task.options, **task.constraints}
         found = self.called(1, lambda: mrc.optimize(self.surface, vertices, progress=deadline(), **more))
         self.accept([task], found and [found])
         if found and self.rng.random() < 0.2:
-            task = self.task(vertices, closed, wishes=False)
+            task = self.task(vertices, closed, constraints=False)
             task.given = points_of(found)
             more = {"closed": closed, "options": task.options, "scales": found.scales}
             again = self.called(1, lambda: mrc.optimize(self.surface, found, progress=deadline(), **more))
@@ -172,7 +172,7 @@ class Trial:
     def optimize_all(self, contours):
         if not contours:
             return
-        tasks = [self.task(vertices, closed, wishes=False) for vertices, closed in contours]
+        tasks = [self.task(vertices, closed, constraints=False) for vertices, closed in contours]
         options = tasks[0].options
         for task in tasks:
             task.options = options

@@ -46,7 +46,7 @@ class Winding:
 
     def __init__(self, case):
         geometry, faces = case.energy.geometry, set(case.space["faces"].tolist())
-        self.content = case.wishes["region_density"] * polygon_areas(case.mesh)
+        self.content = case.constraints["region_density"] * polygon_areas(case.mesh)
         self.given = set(edges_of([p[0] for p in case.given]))
 
         def beyond(a, b):

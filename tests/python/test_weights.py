@@ -41,12 +41,12 @@ def weighted_case(kinds, k, seed):
     options = {"refinement": k, "width": int(rng.integers(1, 4)), "ends": "vertices", **random_energy(rng)}
     for kind in kinds:
         options |= weight(rng, kind)
-    wishes = {"attractors": attractors(rng, mesh)} if "attractors" in kinds else {}
-    return Case(mesh, contour, options, closed=family is not chain, dense="arcs" in kinds, **wishes)
+    constraints = {"attractors": attractors(rng, mesh)} if "attractors" in kinds else {}
+    return Case(mesh, contour, options, closed=family is not chain, dense="arcs" in kinds, **constraints)
 
 
 def check(case):
-    if not case.wishes:
+    if not case.constraints:
         check_same_graph(case)
     check_optimum(case)
 
