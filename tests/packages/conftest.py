@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The packages that `native/package` made, and the Blenders in which they are tried."""
+"""The packages built by `native/package`, and the versions of Blender in which they are tested."""
 
 import json
 import os
@@ -15,7 +15,7 @@ sys.path.insert(0, str(ROOT / "native"))
 
 
 class Blender:
-    """A Blender in which nothing of the user's is found but what lies in one folder."""
+    """A Blender whose user settings, add-ons and extensions are all in one folder."""
 
     def __init__(self, command, tool=None):
         self.command, self.tool = command, tool
@@ -24,8 +24,8 @@ class Blender:
     def kind(self):
         return "extension" if self.tool else "legacy"
 
-    def take(self, profile, *steps):
-        """What is there after each step of in_blender.py, in one run."""
+    def run_steps(self, profile, *steps):
+        """The state after each step of in_blender.py, all in one process."""
         script = Path(__file__).with_name("in_blender.py")
         profile.mkdir(exist_ok=True)
         run = subprocess.run(
@@ -48,8 +48,10 @@ class Blender:
 
 
 def pytest_addoption(parser):
-    parser.addoption("--packages", type=Path, required=True, help="the folder that native/package filled")
-    parser.addoption("--blender", type=Path, help="a Blender before 4.2")
+    parser.addoption(
+        "--packages", type=Path, required=True, help="the folder with the packages built by native/package"
+    )
+    parser.addoption("--blender", type=Path, help="a Blender older than 4.2")
     parser.addoption("--bpy", type=Path, action="append", default=[], help="a virtual environment with a bpy wheel")
 
 
@@ -73,7 +75,7 @@ def pytest_generate_tests(metafunc):
 
 @pytest.fixture
 def blender_tool(pytestconfig):
-    """The extension tool of one release, the first that was given."""
+    """The extension tool of the first release given."""
     return next(blender.tool for blender in blenders(pytestconfig) if blender.tool)
 
 
@@ -92,6 +94,6 @@ def packages(pytestconfig):
 
 @pytest.fixture(scope="session")
 def version():
-    """As its one home says it."""
+    """The version in CMakeLists.txt, where it is defined."""
     source = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
     return only(re.findall(r"^project\(.* VERSION (\S+)", source, re.MULTILINE))

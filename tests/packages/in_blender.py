@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Takes steps in a Blender of its own, and prints a line of JSON with what is there after each:
+"""Runs steps in one Blender process and prints the state after each as a line of JSON:
 
 blender -b --factory-startup --python-exit-code 1 --python tests/packages/in_blender.py -- STEP...
-python tests/packages/in_blender.py -- STEP...                  where the bpy wheel is installed
+python tests/packages/in_blender.py -- STEP...                  with an installed bpy wheel
 
-A step is the path of a package, which is installed and enabled, or one of: look, enable, disable, uninstall.
+A step is the path of a package to install and enable, or one of: look, enable, disable, uninstall.
 """
 
 import importlib
@@ -12,7 +12,7 @@ import json
 import sys
 from pathlib import Path
 
-import bpy  # first: as a wheel it brings the path of the next one
+import bpy  # first: the bpy wheel makes the next module importable
 
 # isort: split
 import addon_utils
@@ -49,12 +49,12 @@ def uninstall():
         bpy.ops.extensions.package_uninstall(repo_index=repositories.index("user_default"), pkg_id=ID)
     else:
         window = bpy.context.window_manager.windows[0]
-        with bpy.context.temp_override(window=window, area=window.screen.areas[0]):  # which it draws anew
+        with bpy.context.temp_override(window=window, area=window.screen.areas[0]):  # the operator redraws the area
             bpy.ops.preferences.addon_remove(module=ID)
 
 
 def optimize():
-    """What the user reads where a rough loop beside a groove is refused; nothing where it is moved."""
+    """Optimizes a rough loop beside a groove. Returns the message that the user sees, empty if it was moved."""
     obj = grooved_cylinder()
     edit(obj)
     select(obj, pairs(rough_loop(GROOVE - 3)))
@@ -67,7 +67,7 @@ def optimize():
 
 
 def state():
-    """Whether the add-on is there and on, its version and its library's, and what its operator says."""
+    """Whether the add-on is installed and enabled, its version and that of its library, and what its operator says."""
     installed = MODULE in [module.__name__ for module in addon_utils.modules(refresh=True)]
     enabled = MODULE in bpy.context.preferences.addons
     found = {"installed": installed, "enabled": enabled, "operator": hasattr(bpy.types, "MESH_OT_optimize_contour")}

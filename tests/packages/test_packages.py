@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the packages hold, that Blender's own tools accept them, and that they stand on their own."""
+"""The packages contain the right files, Blender's own tools accept them, and they need nothing else."""
 
 import re
 import subprocess
@@ -13,7 +13,7 @@ from conftest import ROOT, only
 
 ADDON = ROOT / "addon"
 SOURCES = {path.relative_to(ADDON).as_posix() for path in ADDON.rglob("*.py")}
-LICENCES = {"LICENSE", "THIRD_PARTY.txt"}
+LICENSES = {"LICENSE", "THIRD_PARTY.txt"}
 MODULE = r"mrcontour\.cpython-3\d+-[\w-]+\.so"
 LIBRARY = r"mrcontour\.libs/libOpenMeshCore-\w+\.so[\d.]*"
 
@@ -33,7 +33,7 @@ def manifest(package):
 
 
 def rest(found, patterns):
-    """What is left of names when one of each pattern is taken away."""
+    """The names without those that match a pattern; each pattern must match exactly one."""
     for pattern in patterns:
         found = set(found) - {only(name for name in found if re.fullmatch(pattern, name))}
     return found
@@ -41,7 +41,7 @@ def rest(found, patterns):
 
 def test_wheel_contains_module_library_stubs_and_licenses(packages, version):
     info = f"mrcontour-{version}.dist-info"
-    wanted = [MODULE, LIBRARY, "mrcontour-stubs/__init__.pyi", *(f"{info}/licenses/{name}" for name in LICENCES)]
+    wanted = [MODULE, LIBRARY, "mrcontour-stubs/__init__.pyi", *(f"{info}/licenses/{name}" for name in LICENSES)]
     own = {f"{info}/{name}" for name in ("METADATA", "WHEEL", "RECORD", "sboms/auditwheel.cdx.json")}
     assert rest(names(packages["wheel"]), wanted) <= own
     assert "manylinux" in packages["wheel"].name
@@ -62,7 +62,7 @@ def test_extension_contains_sources_manifest_and_wheel(packages):
 def test_legacy_add_on_contains_sources_libraries_and_licenses(packages):
     found = names(packages["legacy"])
     assert all(name.startswith("minimum_ratio_contours/") for name in found)
-    assert rest([name.partition("/")[2] for name in found], [MODULE, LIBRARY]) == SOURCES | LICENCES
+    assert rest([name.partition("/")[2] for name in found], [MODULE, LIBRARY]) == SOURCES | LICENSES
 
 
 def test_manifest_requests_no_permissions_and_declares_its_platform(packages, version):
@@ -103,7 +103,7 @@ def test_library_is_loaded_from_the_package_only(packages, tmp_path):
 
 
 def test_every_module_is_packaged(packages):
-    """A package that lacks one fails only where that module is first imported."""
+    """A package without one fails only when that module is first imported."""
     assert {"__init__.py", "core/search.py", "mesh/outputs.py", "ui/operators.py"} <= SOURCES
     for kind, folder in (("extension", ""), ("legacy", "minimum_ratio_contours/")):
         shipped = {name.removeprefix(folder) for name in names(packages[kind]) if name.endswith(".py")}
@@ -111,7 +111,7 @@ def test_every_module_is_packaged(packages):
 
 
 def wheel_of(folder, python, platform):
-    """Stands in for a wheel of another system."""
+    """An empty stand-in for a wheel of another system."""
     wheel = folder / f"mrcontour-0.1.0-{python}-{python}-{platform}.whl"
     with ZipFile(wheel, "w") as content:
         content.writestr(f"mrcontour.{python}-{platform}.pyd", b"")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The add-on can reach no network, runs no text as code, unpickles nothing and writes no files of its own."""
+"""The add-on does not use the network, run text as code, unpickle data, or write files of its own."""
 
 import ast
 import re
@@ -18,7 +18,7 @@ FORBIDDEN |= {"as_module", "chmod", "python_file_run", "run_script", "screenshot
 FORBIDDEN |= {"render", "rmdir", "symlink_to", "hardlink_to", "system", "tofile", "touch", "unlink", "urlopen"}
 FORBIDDEN_STARTS = ("dump", "export", "load", "makedirs", "mkdir", "open", "save", "url_", "write")
 FORBIDDEN_ENDS = ("_export", "_install", "_render")
-# The add-on's own, which write to meshes, and what only sounds like it.
+# The add-on's own functions, which write to meshes, and harmless ones with similar names.
 KNOWN = {"cut.write", "outputs.write", "seams.write", "write_labels", "write_seams"}
 KNOWN |= {"gpu.matrix.load_projection_matrix", "re.compile", "messages.open_region", "segmentation.write"}
 
@@ -32,7 +32,7 @@ def imported(node):
 
 
 def called(node):
-    """What a call calls, with the dots, where a part of that is forbidden."""
+    """The dotted name that a call refers to, if a part of it is forbidden."""
     if not isinstance(node, ast.Call):
         return set()
     call = ast.unparse(node.func)

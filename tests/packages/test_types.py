@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Type checkers know the installed module by the stubs that the wheel brings."""
+"""Type checkers understand the installed module through the stubs in the wheel."""
 
 import re
 import subprocess
@@ -14,7 +14,7 @@ from conftest import ROOT, only
 
 @pytest.fixture(scope="module")
 def python(packages, tmp_path_factory):
-    """A Python that has the wheel installed, and besides what this one has."""
+    """A Python with the wheel installed, in addition to the packages of this one."""
     folder = tmp_path_factory.mktemp("installed")
     venv.create(folder, with_pip=False)
     site = only(folder.glob("lib/python*/site-packages"))
@@ -30,7 +30,7 @@ def example():
 
 
 def checked(python, folder, code):
-    """What mypy says of code, in strict mode."""
+    """The output of mypy for a piece of code, in strict mode."""
     file = folder / "example.py"
     file.write_text(code, encoding="utf-8")
     command = [sys.executable, "-m", "mypy", "--strict", "--python-executable", str(python), "--cache-dir", str(folder)]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Anything that Python can pass gives a result or an exception that says what is wrong: never a crash, NaN or another
-exception. The searches for such input are the same in each run."""
+"""Any input that Python can pass gives a result or an exception that says what is wrong, never a crash, NaN or another
+exception. Every run tries the same input."""
 
 import os
 
@@ -19,7 +19,7 @@ FULL = bool(os.environ.get("MRC_LONG"))
 
 
 def examples(count):
-    """So many in the usual run, twenty times as many in a full one."""
+    """This many examples in the usual run, twenty times as many in a full run."""
     return settings(derandomize=True, max_examples=count * (20 if FULL else 1), deadline=None, database=None)
 
 
@@ -33,8 +33,8 @@ RING = np.arange(18, 24, dtype=np.int32)
 POINTS = np.column_stack([RING, RING])
 
 
-def allowed(call):
-    """What a call gives, or None where it refuses its input in words."""
+def result_or_none(call):
+    """The result of a call, or None if it refuses its input with a message."""
     try:
         return call()
     except REFUSALS as error:
@@ -53,7 +53,7 @@ def check_found(result, options):
             check_numbers(result)
 
 
-# ---- what may be passed
+# ---- strategies for input
 
 scalars = st.one_of(
     st.none(),
@@ -83,7 +83,7 @@ def elements(dtype):
 
 @st.composite
 def any_arrays(draw):
-    """Of any type and shape, laid out in any way."""
+    """Arrays of any type, shape and memory layout."""
     dtype = draw(dtypes)
     array = draw(arrays.arrays(dtype, draw(shapes), elements=elements(dtype)))
     return laid_out(array, draw(st.sampled_from([*LAYOUTS])))
@@ -95,7 +95,7 @@ def read_only(array):
 
 
 def spaced(array):
-    """The same between other numbers."""
+    """The same array as a strided view of a larger one."""
     wide = np.repeat(array, 3, axis=-1) if array.ndim else array
     return wide[..., 1::3] if array.ndim else wide
 
@@ -145,9 +145,9 @@ edges = st.one_of(anything, st.lists(st.tuples(st.integers(-1, 45), st.integers(
 def test_arbitrary_surface_arrays(name, value):
     names = ("positions", "face_offsets", "face_vertices", "triangles")
     parts = {**dict(zip(names, MESH.arguments(), strict=True)), name: value}
-    surface = allowed(lambda: mrc.Surface(**parts))
+    surface = result_or_none(lambda: mrc.Surface(**parts))
     if surface is not None:
-        found = allowed(lambda: mrc.optimize(surface, RING))
+        found = result_or_none(lambda: mrc.optimize(surface, RING))
         if found is not None:
             check_numbers(found)
 
@@ -169,12 +169,12 @@ def test_memory_layout_of_arrays_does_not_matter(layouts, wide):
     faces=st.lists(st.lists(st.integers(0, 7), min_size=3, max_size=4, unique=True), min_size=1, max_size=9),
 )
 def test_arbitrary_positions(positions, faces):
-    """However large, small or flat."""
+    """Positions may be very large, very small or flat."""
     offsets = np.cumsum([0] + [len(face) for face in faces])
-    surface = allowed(lambda: mrc.Surface(positions, offsets, np.concatenate(faces)))
+    surface = result_or_none(lambda: mrc.Surface(positions, offsets, np.concatenate(faces)))
     if surface is not None:
-        found = allowed(lambda: mrc.optimize(surface, faces[0], options=mrc.Options(refinement=1)))
-        curvature = allowed(lambda: mrc.curvature(surface, mrc.Options()))
+        found = result_or_none(lambda: mrc.optimize(surface, faces[0], options=mrc.Options(refinement=1)))
+        curvature = result_or_none(lambda: mrc.curvature(surface, mrc.Options()))
         assert found is None or check_numbers(found) is None
         assert curvature is None or np.isfinite(curvature.direction_min).all()
 
@@ -187,9 +187,9 @@ def test_arbitrary_positions(positions, faces):
 def test_arbitrary_contours(value, closed, at):
     function = (mrc.optimize, mrc.measure, mrc.band, mrc.search_space)[at % 4]
     if at == 4:
-        allowed(lambda: mrc.close_contour(SURFACE, value))
+        result_or_none(lambda: mrc.close_contour(SURFACE, value))
     else:
-        allowed(lambda: function(SURFACE, value, closed, options=mrc.Options(width=2)))
+        result_or_none(lambda: function(SURFACE, value, closed, options=mrc.Options(width=2)))
 
 
 @examples(300)
@@ -199,9 +199,9 @@ def test_arbitrary_contours(value, closed, at):
 def test_arbitrary_points_on_edges(ends, parameters, k):
     options = mrc.Options(width=2, refinement=k)
     contour = {"edge_vertices": ends, "edge_parameters": parameters}
-    result = allowed(lambda: mrc.optimize(SURFACE, **contour, options=options))
+    result = result_or_none(lambda: mrc.optimize(SURFACE, **contour, options=options))
     check_found(result, options)
-    allowed(lambda: mrc.measure(SURFACE, **contour, options=options))
+    result_or_none(lambda: mrc.measure(SURFACE, **contour, options=options))
 
 
 # ---- options
@@ -214,33 +214,39 @@ values = st.one_of(anything, st.floats(0, 3), st.floats(0), st.integers(0, 4), s
 @examples(500)
 @given(chosen=st.dictionaries(st.sampled_from(NAMES), values, min_size=1, max_size=3))
 def test_arbitrary_option_values(chosen):
-    options = allowed(lambda: mrc.Options(**chosen))
+    options = result_or_none(lambda: mrc.Options(**chosen))
     if options is not None and (options.refinement < 4 or options.refinement > 10_000):
-        result = allowed(lambda: mrc.optimize(SURFACE, RING, options=options))
+        result = result_or_none(lambda: mrc.optimize(SURFACE, RING, options=options))
         check_found(result, options)
 
 
 @examples(100)
 @given(name=st.text(max_size=12), value=scalars)
 def test_arbitrary_option_names(name, value):
-    allowed(lambda: mrc.Options(**{name: value}))
+    result_or_none(lambda: mrc.Options(**{name: value}))
 
 
 # ---- constraints, and several contours
 
-constraint_values = { "required_vertices": indices, "required_edges": edges, "barriers": edges, "attractors":
-st.one_of(anything, st.lists(st.tuples(st.integers(-1, 45), st.floats(), st.floats()), max_size=3)), "region_density":
-st.one_of(anything, arrays.arrays(np.float64, 36, elements=st.floats())), "scales": st.one_of(anything,
-st.just(mrc.optimize(SURFACE, RING).scales)), } constraints = st.sampled_from([*constraint_values]).flatmap(lambda name:
-st.tuples(st.just(name), constraint_values[name]))
+constraint_values = {
+    "required_vertices": indices,
+    "required_edges": edges,
+    "barriers": edges,
+    "attractors": st.one_of(anything, st.lists(st.tuples(st.integers(-1, 45), st.floats(), st.floats()), max_size=3)),
+    "region_density": st.one_of(anything, arrays.arrays(np.float64, 36, elements=st.floats())),
+    "scales": st.one_of(anything, st.just(mrc.optimize(SURFACE, RING).scales)),
+}
+constraints = st.sampled_from([*constraint_values]).flatmap(
+    lambda name: st.tuples(st.just(name), constraint_values[name])
+)
 
 
 @examples(400)
 @given(constraint=constraints, weight=st.sampled_from([0.0, 1.0, -1e50]))
 def test_arbitrary_constraints(constraint, weight):
-    """With the largest weights, what is better is a matter of rounding."""
+    """With the largest weights, rounding decides what is better, so only finiteness is checked."""
     options = mrc.Options(width=2, region_weight=weight)
-    result = allowed(lambda: mrc.optimize(SURFACE, RING, options=options, **dict([constraint])))
+    result = result_or_none(lambda: mrc.optimize(SURFACE, RING, options=options, **dict([constraint])))
     if result is not None:
         (check_numbers if abs(weight) <= 1 else check_finite)(result)
 
@@ -253,7 +259,7 @@ def test_arbitrary_constraints(constraint, weight):
 )
 def test_arbitrary_lists_of_contours(contours, closed, constraint):
     more = {"closed": closed, "options": mrc.Options(width=2), **dict([constraint])}
-    results = allowed(lambda: mrc.optimize_all(SURFACE, contours, **more))
+    results = result_or_none(lambda: mrc.optimize_all(SURFACE, contours, **more))
     for result in results or ():
         check_numbers(result)
 
@@ -261,7 +267,7 @@ def test_arbitrary_lists_of_contours(contours, closed, constraint):
 @examples(100)
 @given(answer=anything)
 def test_arbitrary_return_values_of_progress(answer):
-    """Whatever it answers is taken as yes or no; what has no truth, as an array, is an error."""
-    result = allowed(lambda: mrc.optimize(SURFACE, RING, progress=lambda share: answer))
+    """The return value is converted to a bool; if that fails, as for an array, it is an error."""
+    result = result_or_none(lambda: mrc.optimize(SURFACE, RING, progress=lambda share: answer))
     if result is not None:
         check_numbers(result)

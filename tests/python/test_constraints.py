@@ -21,15 +21,25 @@ def draw(rng, seed, ends):
 
 
 def constrained_case(kind, k, seed, ends=None):
-    """Requires random vertices and real edges of the band, on and off the given contour.""" rng =
-    np.random.default_rng([seed, k, len(kind), len(ends or "")]) while True: mesh, contour = draw(rng, seed, ends) flow
-    = ("harmonic", "gates", "harmonic", "arc_length")[seed % 4] options = {"refinement": k, "flow": flow, "width":
-    int(rng.integers(1, 4)), **random_energy(rng)} case = Case(mesh, contour, options | ({"ends": ends} if ends else
-    {}), closed=ends is None) constraints = {} if "vert" in kind: count = int(rng.integers(1, 3))
-    constraints["required_vertices"] = rng.choice(case.space["vertices"], count, replace=False).astype(np.int32) if
-    "edge" in kind: edges = inner_edges(case) constraints["required_edges"] = edges[rng.choice(len(edges), 1 if k else
-    int(rng.integers(1, 3)), replace=False)] case.constraints = constraints if rng.random() < 0.3 or
-    np.isfinite(case.expected()):  # most of these are feasible return case
+    """Requires random vertices and real edges of the band, on and off the given contour."""
+    rng = np.random.default_rng([seed, k, len(kind), len(ends or "")])
+    while True:
+        mesh, contour = draw(rng, seed, ends)
+        flow = ("harmonic", "gates", "harmonic", "arc_length")[seed % 4]
+        options = {"refinement": k, "flow": flow, "width": int(rng.integers(1, 4)), **random_energy(rng)}
+        case = Case(mesh, contour, options | ({"ends": ends} if ends else {}), closed=ends is None)
+        constraints = {}
+        if "vert" in kind:
+            count = int(rng.integers(1, 3))
+            constraints["required_vertices"] = rng.choice(case.space["vertices"], count, replace=False).astype(np.int32)
+        if "edge" in kind:
+            edges = inner_edges(case)
+            constraints["required_edges"] = edges[
+                rng.choice(len(edges), 1 if k else int(rng.integers(1, 3)), replace=False)
+            ]
+        case.constraints = constraints
+        if rng.random() < 0.3 or np.isfinite(case.expected()):  # keeps most cases feasible
+            return case
 
 
 def inner_edges(case):
@@ -64,7 +74,7 @@ def test_open_optimum_matches_the_independent_solver(ends, kind, seed):
 @pytest.mark.parametrize("k", [0, 1, 2])
 @seeds(10, 20)
 def test_barriers_are_never_crossed(k, seed):
-    """Neither the contour nor the band crosses a closed loop of barriers around or beside the given contour."""
+    """The band, and with it the contour, stays on the given contour's side of a closed loop of barriers."""
     rng = np.random.default_rng(seed)
     mesh = meshes.tube(rng.uniform(0.7, 1.3, 11), 8, step=0.5, split_share=0.6, rng=rng, noise=0.05)
     contour = meshes.zigzag_contour(rng, 8, 4, 5)

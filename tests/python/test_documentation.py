@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The documents: their examples run and do what they say, and their links lead somewhere. Examples for Blender are run
-by tests/blender."""
+"""The examples in the documentation run and do what they say, and its links lead somewhere. Examples for Blender are
+run by tests/blender."""
 
 import re
 from pathlib import Path
@@ -36,7 +36,8 @@ def executed(page, codes, names):
 
 @pytest.fixture
 def run(tmp_path, monkeypatch):
-    """Runs examples of a page one after the other, in a folder of their own and without a screen; gives their names."""
+    """Runs examples of a page one after another, in a temporary folder and without a screen. Returns their
+    variables."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "agg")
     return lambda page, codes: executed(page, codes, {})
@@ -88,7 +89,7 @@ def test_readme_is_short():
 
 
 def anchors(page):
-    """What GitHub makes of the headings."""
+    """The anchors that GitHub generates from headings."""
     titles = re.findall(r"^#+ (.*)$", page.read_text(encoding="utf-8"), re.MULTILINE)
     return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What would need more memory than is free, or more arcs than can be counted, is refused before any of it is taken."""
+"""A search that needs more memory than is free, or more arcs than can be numbered, is refused before it takes
+memory."""
 
 import re
 import sys
@@ -21,7 +22,7 @@ def surface():
 
 
 def estimate(error):
-    """Nodes, arcs and bytes of a message, which says what to lower, too."""
+    """The nodes, arcs and bytes in a message, which also says what to lower."""
     found = re.search(
         r"about (\S+) nodes and (\S+) arcs and need (\S+) GB: lower refinement \(now (\d+)\) or width", error
     )
@@ -31,7 +32,7 @@ def estimate(error):
 
 
 def most_memory():
-    """The most that this process had so far, in kilobytes. Only on Linux: macOS counts in bytes, Windows not at all."""
+    """The peak memory of this process, in kilobytes. Only on Linux: macOS counts bytes, and Windows does not tell."""
     if sys.platform != "linux":
         return 0
     import resource
@@ -40,7 +41,7 @@ def most_memory():
 
 
 def refused(call):
-    """The estimate of what is refused, and that no memory to speak of was taken for it."""
+    """Checks that a search is refused without taking much memory. Returns the estimate in the message."""
     before = most_memory()
     with pytest.raises(mrc.TooLarge) as caught:
         call()
@@ -65,7 +66,7 @@ def test_error_names_the_contour_that_is_too_large(surface):
 
 @pytest.mark.parametrize("iterations", [{"iterations": 1}, {"iterations": 0, "regular_iterations": 1}])
 def test_only_bands_searched_with_refinement_count(iterations):
-    """A refinement that is fine for a narrow band is refused for a wide one, in iterations that use it alone."""
+    """A refinement that is fine for a narrow band is refused for a wide one, if any iteration uses it."""
     torus, ring = surface_of(meshes.torus(60, 120)), 120 * np.arange(60, dtype=np.int32)
     options = mrc.Options(refinement=40, width=100, flow="arc_length", **iterations)
     if options.iterations:
@@ -77,15 +78,15 @@ def test_only_bands_searched_with_refinement_count(iterations):
 
 
 def free_bytes():
-    """What Linux says that it can hand out."""
+    """The free memory according to Linux."""
     path = Path("/proc/meminfo")
     if not path.exists():
-        pytest.skip("only Linux says here what is free")
+        pytest.skip("free memory is read the way Linux reports it")
     return 1024 * int(re.search(r"MemAvailable: *(\d+)", path.read_text())[1])
 
 
 def test_limit_is_the_free_memory_or_the_maximum_number_of_arcs(surface):
-    """By halving, on what only measures and builds no graph."""
+    """Found by bisection, with searches that only estimate and build no graph."""
     fine, too_many, message = 1, 100_000, ""
     while too_many - fine > 1 + fine // 100:
         k = (fine + too_many) // 2

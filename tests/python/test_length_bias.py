@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Length bias (6.1.1) by arc length, against enumeration and (refined) labels of length and energy, and by the number
-of edges, against the dynamic program of appendix A."""
+"""Length bias (6.1.1): by arc length, against enumeration and (refined) the independent solver with labels of length
+and energy; by the number of edges, against the dynamic program of appendix A."""
 
 from math import inf
 
@@ -9,7 +9,7 @@ import pytest
 from random_cases import Case, annulus, chain, check_optimum, cylinder, random_energy, seeds, torus
 
 FAMILIES = [annulus, cylinder, torus, chain]
-AFFORDABLE = 20000  # contours that the enumeration may visit
+AFFORDABLE = 20000  # the maximum number of contours to enumerate
 
 
 def biased_case(seed, k, **more):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Open curves (4.6) with held edges, held vertices and ends on the border, against an independent solver."""
+"""Open curves (4.6) with fixed end edges, fixed end vertices and ends on the border, against an independent solver."""
 
 import meshes
 import mrcontour as mrc
@@ -38,7 +38,7 @@ def test_refined_optimum_matches_the_independent_solver(ends, seed):
     check_optimum(case)
 
 
-# ---- laws
+# ---- symmetries and guarantees
 
 
 def realistic_chain(realistic):
@@ -71,7 +71,7 @@ def test_ends_are_kept_and_the_result_is_simple(realistic, ends, k):
 
 @pytest.mark.parametrize("k", [0, 1])
 def test_end_on_the_border_slides_along_it(k):
-    """A sheet with a groove: a straight line beside it slides into it, and ends on the borders that it began on."""
+    """On a sheet with a groove, a straight line beside the groove slides into it. Its ends stay on their borders."""
     rows, columns = 9, 15
     x, y = np.meshgrid(np.arange(columns) * 1.0, np.arange(rows) * 1.0)
     z = -1.5 * np.exp(-((x - 9.0) ** 2) / 2)

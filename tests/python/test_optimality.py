@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The result is the least ratio of all admissible contours of the band: compared with enumeration."""
+"""The result has the least ratio of all admissible contours of the band: compared with enumeration."""
 
 from itertools import pairwise
 from math import pi
@@ -12,7 +12,7 @@ from brute_force import BruteForce
 from conftest import surface_of
 from search_space_checks import check_search_space
 
-AFFORDABLE = 20000  # contours that the enumeration may visit in one band
+AFFORDABLE = 20000  # the maximum number of contours to enumerate in one band
 
 
 def triangle_annulus(rng):
@@ -28,7 +28,8 @@ def mixed_annulus(rng):
 
 
 def level_cylinder(rng):
-    """Regular quads: in the harmonic flow every edge across is level. Exactly regular, or with noise in positions."""
+    """Regular quads, sometimes with noise in the positions: in the harmonic flow every edge across the band is
+    level."""
     rings, columns = int(rng.integers(3, 7)), int(rng.integers(5, 8))
     noise = rng.choice([0.0, 0.1])
     mesh = meshes.tube(rng.uniform(0.8, 1.4, rings), columns, step=rng.uniform(0.4, 1.0), rng=rng, noise=noise)
@@ -36,21 +37,22 @@ def level_cylinder(rng):
 
 
 def closed_torus(rng):
-    """The band meets itself on the torus's other side."""
+    """The band meets itself on the other side of the torus."""
     rows, columns = int(rng.integers(5, 8)), int(rng.integers(5, 8))
     mesh = meshes.torus(rows, columns, rng=rng, split_share=rng.choice([0.0, 0.5, 1.0]), noise=0.1)
     return mesh, meshes.zigzag_contour(rng, columns, 1, 3)
 
 
 def long_tube(rng):
-    """The mesh goes on behind the band, beyond the reach of every scale and curvature in it."""
+    """The mesh continues beyond the band, farther than anything that affects its scales and curvatures."""
     rows, columns = int(rng.integers(13, 17)), int(rng.integers(5, 8))
     mesh = meshes.tube(rng.uniform(0.8, 1.3, rows), columns, step=0.7, split_share=0.6, rng=rng, noise=0.08)
     return mesh, meshes.zigzag_contour(rng, columns, rows // 2 - 1, rows // 2 + 1)
 
 
 def dead_end_arm(rng):
-    """A ring of quads with a long ladder on its outer border: far along it every edge is level in the harmonic flow."""
+    """A ring of quads with a long ladder on its outer border: far out on it, every edge is level in the harmonic
+    flow."""
     columns, length = 6, 20
     ring = meshes.tube(rng.uniform(0.9, 1.3, 3), columns, rng=rng, noise=0.05)
     foot = ring.positions[[12, 13]]
@@ -99,7 +101,7 @@ def random_options(rng, family, seed):
 
 
 def affordable_case(family, seed):
-    """Draws until the enumeration is affordable."""
+    """Draws random cases until the enumeration is affordable."""
     rng = np.random.default_rng([seed, sum(map(ord, family.__name__))])
     while True:
         mesh, contour = family(rng)
@@ -124,7 +126,7 @@ def test_optimum_matches_enumeration(family, seed):
 
     result = mrc.optimize(surface, contour, closed=True, options=mrc.Options(**options))
     ratio, vertices, status = brute.best()
-    tiny = 1e-4 * brute.energy.scale  # straight contours: f is a difference that rounding leaves of nothing
+    tiny = 1e-4 * brute.energy.scale  # straight contours: their f is only a rounding error
     assert close(result.initial_ratio, brute.energy.ratio(contour), tiny)
     assert close(result.ratio, ratio, tiny), f"enumeration found {vertices}"
     assert close(brute.energy.ratio(result.vertices), ratio, tiny)
@@ -140,7 +142,7 @@ def check_scales(brute, scales):
 
 
 def check_same_graph(brute, space):
-    """Node by node and arc by arc, f and g included."""
+    """Compares both graphs node by node and arc by arc, including f and g."""
     nodes = {(a, b) for a, b, _ in brute.nodes}
     names = [tuple(node) for node in space["nodes"].tolist()]
     assert set(names) == nodes

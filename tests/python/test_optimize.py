@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Symmetries and promises that need no second solver, on realistic contours."""
+"""Symmetries and guarantees of `optimize` that can be tested without a second solver, on realistic contours."""
 
 import itertools
 from dataclasses import replace
@@ -19,7 +19,7 @@ def optimize(mesh, contour, options=HARMONIC, **keywords):
 
 
 def same_answer(one, two, vertices=None):
-    """The same contour (after renaming by `vertices`) with the same ratio."""
+    """Whether two results have the same contour (after renumbering by `vertices`) and the same ratio."""
     expected = one.vertices if vertices is None else vertices[one.vertices]
     return (
         same_cycle(expected, two.vertices)
@@ -49,7 +49,8 @@ def test_rigid_motion_changes_nothing(realistic, rng):
 
 
 def test_rigid_motion_of_a_regular_grid_changes_nothing(rng):
-    """All edges equal: many distances lie at a limit, such as the smoothing's 3 sigma. Rounding must not decide."""
+    """With equal edges, many distances are exactly at a limit, such as the 3 sigma of smoothing. Rounding must not
+    decide."""
     mesh = meshes.square_prism(6, 15)
     contour = meshes.zigzag_contour(rng, 24, 5, 9)
     options = mrc.Options(width=3, flow="harmonic", feature="ridge")
@@ -130,7 +131,7 @@ def test_result_keeps_its_guarantees(realistic, options):
 
 @pytest.mark.parametrize("flow", ["gates", "arc_length", "harmonic"])
 def test_result_winds_once_around_its_band(realistic, flow):
-    """Simple, along real edges of the band, with increments that sum to one."""
+    """The result is simple, follows real edges of the band, and its increments sum to one."""
     _, mesh, contour = realistic
     surface, options = surface_of(mesh), mrc.Options(width=4, flow=flow)
     loop = mrc.optimize(surface, contour, options=options).vertices.tolist()
@@ -157,8 +158,8 @@ def test_result_length_and_positions_match_its_contour(realistic):
 
 
 def test_wider_bands_contain_narrower_ones(realistic):
-    """The scales and the given contour's ratio never depend on the width. (The best ratio may, either way: a wider band
-    has another flow, and with it other contours are monotone.)"""
+    """The scales and the ratio of the given contour do not depend on the width. (The best ratio may become better or
+    worse: a wider band has a different flow, in which different contours are monotone.)"""
     _, mesh, contour = realistic
     surface = surface_of(mesh)
     faces, results = [], []
@@ -201,7 +202,7 @@ def test_iterations_equal_single_runs_with_the_first_scales(realistic):
 
 
 def test_salience_belongs_to_the_best_contour_found():
-    """Later iterations that find only worse contours change neither the result nor how far to trust it."""
+    """Later iterations that find only worse contours change neither the result nor its salience."""
     options, settled = {"flow": "gates", "width": 8, "length_bias": 2.0, "anchor": 1.0}, 0
     for _, mesh, contour in realistic_contours():
         surface = surface_of(mesh)
@@ -214,7 +215,7 @@ def test_salience_belongs_to_the_best_contour_found():
 
 @pytest.mark.parametrize("flow", ["gates", "arc_length", "harmonic"])
 def test_result_along_hidden_faces_can_be_given_again(flow):
-    """The best ring runs along hidden faces, with something to grow into on one side alone: it can be given again."""
+    """The best ring runs along hidden faces, so its band can grow only on one side; still it can be given again."""
     mesh = meshes.tube([1.3, 1.0, 0.7, 1.0, 1.3], 8)
     surface = surface_of(mesh, hidden_faces=np.arange(16, dtype=np.int32))
     options = mrc.Options(width=2, flow=flow)
@@ -227,7 +228,8 @@ def test_result_along_hidden_faces_can_be_given_again(flow):
 
 @pytest.mark.parametrize("flow", ["gates", "arc_length", "harmonic"])
 def test_no_result_runs_along_the_mesh_border(flow):
-    """The ring at the border has the least ratio, but no part ends there, and nothing can be cut off."""
+    """The ring at the border has the least ratio, but is no boundary between parts, and nothing could be cut off
+    there."""
     mesh = meshes.tube([0.7, 0.7, 1.0, 1.1], 8)
     given = 16 + np.arange(8)
     result = mrc.optimize(surface_of(mesh), given, options=mrc.Options(width=3, flow=flow, iterations=3))
@@ -249,7 +251,8 @@ def test_progress_is_called_and_can_cancel(realistic):
 
 
 def test_progress_has_three_phases_per_iteration(realistic):
-    """Patches, bands and searches; what ends early goes on with the share of the next phase."""
+    """The phases are patches, bands and searches. After a phase that ends early, progress continues at the next
+    phase."""
     _, mesh, contour = realistic
     surface, heard = surface_of(mesh), []
     for options in ({"iterations": 1}, {"iterations": 2, "regular_iterations": 2, "refinement": 1}):

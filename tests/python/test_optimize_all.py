@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Several contours of one mesh (1.4): they keep apart, and what one finds depends on no order and on no thread."""
+"""Several contours of one mesh (1.4): they stay apart, and no result depends on their order or the number of
+threads."""
 
 from itertools import combinations
 
@@ -15,7 +16,7 @@ FLOWS = ("harmonic", "gates", "arc_length")
 
 
 def body(rng, kind):
-    """A mesh, and the rows and columns of its grid."""
+    """A mesh, and the numbers of rows and columns of its grid."""
     rows, columns = int(rng.integers(24, 34)), int(rng.integers(10, 16))
     if kind == "torus":
         split = rng.choice([0.0, 0.5, 1.0])
@@ -26,7 +27,7 @@ def body(rng, kind):
 
 
 def loops_in_a_row(rng, kind):
-    """Loops round a tube or along a torus, at random distances: from side by side to out of each other's reach."""
+    """Loops around a tube or along a torus at random distances: from side by side to out of each other's reach."""
     mesh, rows, columns = body(rng, kind)
     row, contours = int(rng.integers(2, 5)), []
     while row + 2 < rows - 2:
@@ -52,7 +53,7 @@ def options_for(rng, seed, **more):
 
 
 def check_apart(mesh, results, given):
-    """No two results meet but in points that the given ones shared; each is simple and no worse than given."""
+    """Results meet only in points that the given contours shared; each is simple and no worse than given."""
     for result in results:
         assert result.objective <= result.initial_objective
         assert crossings(mesh, points_of(result), result.closed) == []
@@ -114,7 +115,7 @@ def test_contour_not_held_back_finds_what_it_finds_alone():
 
 
 def test_contours_optimized_alone_would_cross():
-    """Otherwise nothing above would be worth much."""
+    """Otherwise the tests above would prove little."""
     crossing = 0
     for seed in range(12):
         rng = np.random.default_rng([seed, 4])
@@ -145,7 +146,7 @@ def two_grooves(depths=(0.3, 0.2)):
 
 
 def test_neighbors_that_would_swap_places_keep_their_order():
-    """With a required vertex in each other's groove alone, both would pass the other; together neither does."""
+    """Each requires a vertex in the groove of the other. Alone, both would pass the other; together neither does."""
     mesh, ring = two_grooves()
     surface, options = surface_of(mesh), mrc.Options(width=12)
     contours, wanted = [ring[13], ring[17]], [[int(ring[20][0])], [int(ring[10][0])]]
@@ -167,7 +168,7 @@ def test_neighbors_that_would_swap_places_keep_their_order():
 
 
 def test_only_one_of_two_contours_gets_the_same_groove():
-    """The nearer one gets it; the other stops beside it, and says who is there."""
+    """The nearer one gets it. The other stops beside it and names the first in `held_back_by`."""
     mesh, ring = two_grooves((0.0, 0.3))
     surface, options = surface_of(mesh), mrc.Options(width=9, iterations=3)
     alone = [mrc.optimize(surface, ring[r], options=options) for r in (13, 18)]
@@ -182,7 +183,7 @@ def test_only_one_of_two_contours_gets_the_same_groove():
 
 
 def level_line(mesh, values, level):
-    """The closed line on which values given at the vertices are at a level, as points on edges and diagonals."""
+    """The closed line on which a function given at the vertices has this level, as points on edges and diagonals."""
     following = {}
     for triangle in mesh.triangles.tolist():
         crossing = {}
@@ -206,7 +207,7 @@ def grooved_tube():
 
 @pytest.mark.parametrize("k", [0, 1])
 def test_contour_does_not_cross_another_in_the_same_faces(k):
-    """Alone both would go down to row 5. The upper one has row 6 as its neighbor along edges: below the other one."""
+    """Alone, both would move down to row 5. The upper one snaps to row 6, which is below the other one."""
     mesh = grooved_tube()
     surface, options = surface_of(mesh), mrc.Options(width=3, iterations=2, refinement=k)
     rows = mesh.positions[:, 2] / 0.3
@@ -224,12 +225,12 @@ def test_contour_does_not_cross_another_in_the_same_faces(k):
 
 @pytest.mark.parametrize("k", [0, 1])
 def test_edge_crossed_by_another_contour_is_closed(k):
-    """A small loop round a vertex of row 6, which the neighbor along edges of a loop round the tube passes."""
+    """A small loop surrounds a vertex of row 6, to which a loop around the tube snaps."""
     mesh = grooved_tube()
     surface, options = surface_of(mesh), mrc.Options(width=3, iterations=2, refinement=k)
     at = 6 * 24 + 5
     near = np.where(np.arange(len(mesh.positions)) == at, 1.0, 0.0)
-    around = mesh.positions[:, 2] / 0.3 - 0.8 * near  # the level line of 6 - 0.3 goes round above the vertex
+    around = mesh.positions[:, 2] / 0.3 - 0.8 * near  # so the level line of 6 - 0.3 passes above the vertex
     given = [level_line(mesh, around, 5.7), level_line(mesh, near, 0.9)]
     assert meetings(mesh, *(as_points(contour) for contour in given)) == []
     results = mrc.optimize_all(surface, given, options=options)
@@ -244,7 +245,7 @@ def as_points(contour):
 
 
 def network(rng):
-    """Chains of a grid on a tube that meet in junctions: along four meridians, round three rings."""
+    """Chains of a grid on a tube that meet in junctions: along four meridians and around three rings."""
     rows, columns = 25, 16
     radius = 1 + 0.3 * np.sin(0.7 * np.arange(rows)) + rng.uniform(-0.1, 0.1, rows)
     mesh = meshes.tube(radius, columns, step=0.4, rng=rng, split_share=rng.choice([0.0, 1.0]), noise=0.03)
@@ -276,7 +277,7 @@ def test_end_on_the_border_slides_unless_shared():
     mesh = meshes.tube(1 + 0.3 * np.cos(np.arange(rows)), columns, step=0.4, rng=rng, split_share=1.0, noise=0.05)
     grid = np.arange(rows * columns, dtype=np.int32).reshape(rows, columns)
     edges = {tuple(edge) for edge in mesh.real_edges().tolist()}
-    # A meridian, and a chain that leaves its first vertex on the border by a diagonal.
+    # A meridian, and a chain that starts at the same border vertex with a diagonal step.
     column = next(c for c in range(4, 12) if (grid[0, c], grid[1, c + 1]) in edges)
     meridian, other = np.ascontiguousarray(grid[:, column]), np.r_[grid[0, column], grid[1:4, column + 1]]
     surface, options = surface_of(mesh), mrc.Options(width=3, ends="border", max_turn=2.5)
@@ -286,7 +287,7 @@ def test_end_on_the_border_slides_unless_shared():
     assert held.vertices[0] == meridian[0]
 
 
-# ---- what belongs to each of them
+# ---- arguments for each contour
 
 
 def test_arguments_apply_to_all_contours_or_to_each():
@@ -331,7 +332,7 @@ def test_held_back_by_names_a_contour_along_another():
 
 
 def test_joint_iterations_converge():
-    """One that goes back to where it was given, since it found nothing concave, wakes nobody up."""
+    """A contour that returns to where it was given, since it found nothing concave, does not restart the others."""
     rows = np.arange(31)
     radius = 1 - 0.3 * np.exp(-(((rows - 10) / 1.2) ** 2)) - 0.01 * np.exp(-((rows - 16.0) ** 2))
     ring = rows[:, None] * 24 + np.arange(24)
@@ -351,7 +352,7 @@ def test_empty_list_of_contours_is_legal():
 
 def test_touching_given_contours_still_touch_only_there():
     mesh, ring = two_grooves()
-    # Each takes a step to the ring between them, and back again.
+    # Each contour steps to the ring between them and back again.
     first = np.r_[ring[8][:6], ring[9][5:8], ring[8][7:]].astype(np.int32)
     second = np.r_[ring[10][:6], ring[9][5:8], ring[10][7:]].astype(np.int32)
     results = mrc.optimize_all(surface_of(mesh), [first, second], options=mrc.Options(width=4, iterations=2))
@@ -385,7 +386,7 @@ def bad(**change):
     ("change", "message"),
     {
         "no edge": ({"contours": [24 * 7 + np.arange(24), np.array([0, 5, 9])]}, "^contour 1: .*0 and 5"),
-        "two bad ones": ({"contours": [np.array([0, 7, 9]), np.array([0, 5, 9])]}, "^contour 0: .*0 and 7"),
+        "two bad contours": ({"contours": [np.array([0, 7, 9]), np.array([0, 5, 9])]}, "^contour 0: .*0 and 7"),
         "out of range": ({"contours": [np.array([0, 1, 9999])]}, "9999"),
         "too few closed": ({"closed": [True]}, "closed has 1 entries for 2"),
         "too many scales": ({"scales": [None, None, None]}, "scales has 3 entries for 2"),
@@ -410,7 +411,7 @@ def test_wrong_types_are_refused():
 
 @pytest.mark.parametrize("seed", range(0, 64, 2))
 def test_edge_between_two_shared_points_is_closed_to_both_contours(seed):
-    """Where two given contours part and meet again, both might run straight from the one vertex to the other."""
+    """Where two given contours part and meet again, both might take the edge between the two vertices."""
     rng = np.random.default_rng(seed)
     mesh = meshes.tube(1 + 0.4 * rng.random(11), 8, step=0.5, rng=rng, split_share=1.0, noise=0.1)
     given = [np.array(meshes.zigzag_contour(rng, 8, 4, 6, 0.9)) for _ in range(2)]

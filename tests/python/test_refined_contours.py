@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Refined contours (3.2, 4.3): the graph and its optimum, against an independent construction and solver."""
+"""Refined contours (3.2, 4.3): the graph and the optimum, against an independent construction and solver."""
 
 import meshes
 import mrcontour as mrc
@@ -35,7 +35,7 @@ def test_optimum_with_two_steiner_points_matches_the_independent_solver(seed):
     check_optimum(case)
 
 
-# ---- laws
+# ---- symmetries and guarantees
 
 
 def optimize(mesh, contour, **options):
@@ -50,7 +50,7 @@ def as_arguments(points):
 
 
 def same_curve(one, two, reverse=False):
-    """Whether two closed results are the same points in the same order, whatever the start."""
+    """Whether two closed results have the same points in the same cyclic order."""
     one, two = points_of(one), points_of(two)
     two = two[::-1] if reverse else two
     if set(one) != set(two) or len(one) != len(two):
@@ -60,7 +60,7 @@ def same_curve(one, two, reverse=False):
 
 
 def test_more_steiner_points_are_never_worse(realistic):
-    """The optimum for k = 3 is at most the one for k = 1, expressed with the points of k = 3."""
+    """The optimum for k = 3 is at most that for k = 1, expressed with the points of k = 3."""
     _, mesh, contour = realistic
     coarse, fine = optimize(mesh, contour, refinement=1), optimize(mesh, contour, refinement=3)
     dense = with_steiner_points(points_of(coarse), True, 3)

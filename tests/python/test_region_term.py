@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The region term (6.1.2): line integrals against sums over the faces between two contours, by discrete Stokes."""
+"""The region term (6.1.2): line integrals equal sums over the faces between two contours, by a discrete Stokes'
+theorem."""
 
 import meshes
 import mrcontour as mrc
@@ -25,7 +26,7 @@ def random_tube(seed):
 
 
 def areas(mesh):
-    """By the vector area of each polygon."""
+    """The size of the vector area of each polygon."""
     result = []
     for face in mesh.faces:
         points = mesh.positions[np.asarray(face)]
@@ -36,7 +37,7 @@ def areas(mesh):
 
 
 def enclosed_change(surface, density, given, contour, options, **to):
-    """What the module's measure says that the integral on the left has changed by."""
+    """The change of the integral on the left, according to `mrcontour.measure`."""
     scales = mrc.optimize(surface, given, options=mrc.Options(iterations=0)).scales
     with_term = mrc.measure(surface, contour, options=options, scales=scales, region_density=density, **to)
     without = mrc.measure(surface, contour, options=options, scales=scales, **to)
@@ -44,7 +45,7 @@ def enclosed_change(surface, density, given, contour, options, **to):
 
 
 def faces_between(mesh, low, high):
-    """The faces that a walk from above the lower contour reaches without crossing either."""
+    """The faces reachable from above the lower contour without crossing either contour."""
     fence = {frozenset(edge) for c in (low, high) for edge in zip(c, np.roll(c, -1))}
     beside = {}
     for f, face in enumerate(mesh.faces):
@@ -77,7 +78,7 @@ def test_line_integral_equals_the_enclosed_sum(seed):
     options = mrc.Options(region_weight=2.5)
     change = enclosed_change(surface, density, low, high, options)
     assert abs(abs(change) - abs(expected)) <= 1e-10 * (1 + abs(expected))
-    # The other way round the same faces leave; from the right they count the other way.
+    # In the other direction the same faces are lost; seen from the right, the sign changes.
     assert change + enclosed_change(surface, density, high, low, options) == pytest.approx(0.0, abs=1e-10)
     right = mrc.Options(region_weight=2.5, region_side="right")
     assert change + enclosed_change(surface, density, low, high, right) == pytest.approx(0.0, abs=1e-10)
@@ -86,7 +87,7 @@ def test_line_integral_equals_the_enclosed_sum(seed):
 @pytest.mark.parametrize("seed", range(20))
 @pytest.mark.parametrize("k", [0, 1, 2])
 def test_result_matches_measure(seed, k):
-    """The term of the last iteration's band is the change since the first given contour, whatever the band."""
+    """The term in the band of the last iteration is the change since the first given contour, whatever the band."""
     rng, mesh = random_tube(100 + seed)
     surface = surface_of(mesh)
     density = rng.uniform(0.0, 2.0, len(mesh.faces))
@@ -116,8 +117,8 @@ def test_reversing_the_contour_and_the_side_together_changes_nothing(seed, k):
 @pytest.mark.parametrize("k", [0, 1])
 @pytest.mark.parametrize("denominator", ["length", "arcs"])
 def test_invariant_under_scaling_rigid_motion_and_reversal(realistic, k, denominator, rng):
-    """The density is per area and weighs in units of the scales: it stays when the mesh grows. Reversal takes the side
-    along; the other side alone is the other sign."""
+    """The density is per area and weighted in units of the scales, so the result does not depend on the size of the
+    mesh. Reversal takes the side along; changing only the side changes the sign."""
     _, mesh, contour = realistic
     density = np.array([np.sin(5 * mesh.positions[face[0]]).sum() for face in mesh.faces])
     size = 23.0 if denominator == "length" else 1.0
@@ -140,7 +141,7 @@ def test_invariant_under_scaling_rigid_motion_and_reversal(realistic, k, denomin
 
 
 def test_density_attracts_and_repels():
-    """On a plain cylinder nothing but the region term moves a ring: towards what it gains, as far as the band goes."""
+    """On a plain cylinder only the region term moves a ring: towards the gain, as far as the band reaches."""
     mesh = meshes.tube([1.0] * ROWS, 8)
     surface = surface_of(mesh)
     given = 4 * 8 + np.arange(8)
@@ -156,7 +157,7 @@ def test_density_attracts_and_repels():
 
 @pytest.mark.parametrize("height", [-0.6, 0.0, 0.5, 0.8])
 def test_everything_between_two_contours_of_a_closed_body_counts(height):
-    """However far from both it lies: each contour parts a ball in two."""
+    """However far they are from both contours: each contour divides a ball into two parts."""
     mesh = meshes.icosphere(3)
     surface, low = surface_of(mesh), -0.8
     contours = [max(meshes.plane_contours(mesh, [0.0, 0.0, 1.0], z), key=len) for z in (low, height)]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The optimum with the region term (6.1.2): regular, against enumeration with winding numbers of faces; refined,
-against the independent solver with a 1-form by least squares."""
+against the independent solver with a least-squares 1-form."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ from random_cases import Case, annulus, check_optimum, cylinder, random_energy, 
 
 FAMILIES = [annulus, cylinder, torus]
 FLOWS = ["harmonic", "gates", "harmonic", "arc_length"]
-AFFORDABLE = 3000  # contours that the enumeration may visit
+AFFORDABLE = 3000  # the maximum number of contours to enumerate
 
 
 def region_case(k, side, seed):
@@ -41,8 +41,10 @@ def polygon_areas(mesh):
 
 
 class Winding:
-    """How many times more a contour winds round each face of the band than the given one does: 0 outside the band, and
-    across each edge it changes by how often either contour runs there."""
+    """How many more times a contour winds around each face of the band than the given one does.
+
+    It is 0 outside the band, and changes across each edge by the number of times that either contour runs along it.
+    """
 
     def __init__(self, case):
         geometry, faces = case.energy.geometry, set(case.space["faces"].tolist())
@@ -50,13 +52,16 @@ class Winding:
         self.given = set(edges_of([p[0] for p in case.given]))
 
         def beyond(a, b):
-            """The band's face on the other side of a face's edge, or -1."""
+            """The face of the band on the other side of an edge of a face, or -1."""
             other = geometry.left_face.get((b, a), -1)
             return other if other in faces else -1
 
         sides = [(face, edge) for face in sorted(faces) for edge in geometry.face_edges[face]]
         start, edge = next((face, edge) for face, edge in sides if beyond(*edge) == -1)
-        met, self.steps = {start}, [(start, edge, -1)]  # face, its edge, the face beyond: each face once, from outside
+        met, self.steps = (
+            {start},
+            [(start, edge, -1)],
+        )  # face, its edge, the face beyond: visits each face once, from outside
         for face, _, _ in self.steps:
             for a, b in geometry.face_edges[face]:
                 other = beyond(a, b)
@@ -66,7 +71,7 @@ class Winding:
         assert met == faces
 
     def change(self, corners):
-        """Of what is enclosed on the left."""
+        """The change of the integral enclosed on the left."""
         found = set(edges_of(corners))
         winds = {-1: 0}
         for face, edge, other in self.steps:

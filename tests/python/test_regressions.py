@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Defects that were found and mended, each with its smallest case."""
+"""Defects that were found and fixed, each with its smallest case."""
 
 import meshes
 import mrcontour as mrc
@@ -26,7 +26,7 @@ def test_scales_of_another_surface_are_refused():
 
 
 def test_iterations_continue_after_the_first_feasible_contour():
-    """A wide way from a loop that lacks the required vertex: one iteration with a narrow band is not enough."""
+    """The required vertex is far from the loop: one iteration with a narrow band is not enough."""
     mesh = meshes.tube([1.0, 1.0, 1.0, 0.9, 0.8, 0.6, 0.8, 1.0], 8, rng=np.random.default_rng(2), noise=0.03)
     surface, wanted = surface_of(mesh), [8 * 2]
     results = [
@@ -150,7 +150,7 @@ def test_any_falsy_progress_result_cancels(answer):
 def test_refined_contour_across_barriers_at_a_vertex_is_refused():
     mesh, here = tube(), ring(2)
     after = np.roll(here, -1)
-    # Every vertex, then the middle of the edge behind it.
+    # Every vertex, each followed by the midpoint of the next edge.
     ends = np.stack([here, here, here, after], axis=1).reshape(-1, 2)
     points = {"edge_vertices": ends, "edge_parameters": [0.0, 0.5] * 8}
     surface, options = surface_of(mesh), mrc.Options(refinement=1)
@@ -162,7 +162,8 @@ def test_refined_contour_across_barriers_at_a_vertex_is_refused():
 
 @pytest.mark.parametrize("k", [1, 2])
 def test_refined_whole_surface_search_follows_the_regular_result(k):
-    """Not on the whole surface, whose refined graph would be large: first along edges on all of it, then in a band."""
+    """The whole refined graph would be too large: first the whole surface is searched along edges, then a refined
+    band."""
     rows = np.arange(30)
     mesh = meshes.tube(1 - 0.3 * np.exp(-((rows - 22.3) ** 2)), 16, step=0.3)
     options = {"width": None, "refinement": k}
@@ -190,7 +191,7 @@ def test_contour_that_changes_sides_along_a_barrier_is_refused():
 @pytest.mark.parametrize("flow", ["harmonic", "gates", "arc_length"])
 @pytest.mark.parametrize("k", [0, 1])
 def test_random_barriers_are_never_crossed(flow, k):
-    """Barriers on the contour and around it. A result that crossed one could not be given again."""
+    """With barriers on the contour and around it, a result that crossed one could not be given again."""
     searched = 0
     for seed in range(30):
         rng = np.random.default_rng([seed, k])
@@ -217,7 +218,8 @@ def test_random_barriers_are_never_crossed(flow, k):
 
 
 def test_curvature_with_vertices_exactly_on_the_disk_boundary():
-    """A disk that a corner of a triangle just touches holds nothing of that triangle, not all of its own circle."""
+    """A disk that touches only the corner of a triangle contains nothing of that triangle, rather than a full
+    circle."""
     sphere = meshes.icosphere(2)
     lengths = np.linalg.norm(np.diff(sphere.positions[sphere.real_edges()], axis=1)[:, 0], axis=1)
     surface, h = surface_of(sphere), lengths.mean()
@@ -228,7 +230,7 @@ def test_curvature_with_vertices_exactly_on_the_disk_boundary():
 
 
 def test_lower_bound_is_not_above_a_returned_given_contour():
-    """What was won along mesh edges is lost where it is measured with Steiner points."""
+    """What is gained along mesh edges may be lost when it is measured with Steiner points."""
     mesh, contour = torus(np.random.default_rng(353))
     options = mrc.Options(width=3, refinement=2, regular_iterations=1, iterations=0)
     result = mrc.optimize(surface_of(mesh), contour, options=options)
@@ -237,7 +239,7 @@ def test_lower_bound_is_not_above_a_returned_given_contour():
 
 
 def test_progress_result_without_truth_value_is_an_error():
-    """An array of several is neither yes nor no."""
+    """An array with several elements is neither true nor false."""
     with pytest.raises(ValueError, match="truth"):
         mrc.optimize(surface_of(tube()), ring(3), progress=lambda share: np.zeros(2))
     with pytest.raises(ValueError, match="truth"):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The laws of bands, flows and graphs (search_space_checks.py) on bands of many shapes."""
+"""The invariants of bands, flows and graphs (search_space_checks.py) on bands of many shapes."""
 
 import meshes
 import mrcontour as mrc
@@ -27,7 +27,7 @@ def test_bands_of_realistic_contours(realistic, flow, width):
 
 @pytest.mark.parametrize("flow", FLOWS)
 def test_bands_of_whole_surfaces(flow):
-    """Grown until topology stops it: closed, noisy, with two borders, with a deep palm."""
+    """Bands grow until the topology stops them: on closed, noisy and open meshes, and on one with a deep palm."""
     for name, mesh, contour in realistic_contours()[::5]:
         space = checked_space(mesh, contour, {"width": None, "flow": flow})
         assert len(space["faces"]) > 0.4 * len(mesh.faces), name
@@ -36,7 +36,7 @@ def test_bands_of_whole_surfaces(flow):
 @pytest.mark.parametrize("flow", FLOWS)
 @pytest.mark.parametrize("seed", range(20))
 def test_bands_of_mixed_polygons(flow, seed):
-    """Quads and triangles at random, with zigzag contours and hidden faces that stop the growth."""
+    """Random quads and triangles, with zigzag contours and with hidden faces that stop the growth."""
     rng = np.random.default_rng(seed)
     mesh = meshes.tube(rng.uniform(0.8, 1.2, 15), 12, step=0.5, split_share=rng.random(), rng=rng, noise=0.05)
     contour = meshes.zigzag_contour(rng, 12, 5, 9, step_chance=0.6)
@@ -57,7 +57,7 @@ def test_bands_on_regular_quads_are_whole_rings(width):
 
 
 def test_left_side_of_the_band_is_left_of_the_contour():
-    """Seen from outside, the left of a loop that runs to the right is above it."""
+    """Seen from outside, the left side of a loop that runs to the right is above it."""
     mesh = meshes.tube(np.ones(7), 8)
     space = checked_space(mesh, 3 * 8 + np.arange(8, dtype=np.int32), {"width": 1})
     assert set(space["left"][1].tolist()) == set(range(4 * 8, 5 * 8))
@@ -73,7 +73,7 @@ def test_band_on_a_torus_remains_an_annulus(flow, rng):
 
 @pytest.mark.parametrize("flow", FLOWS)
 def test_rings_of_a_band_shrink_towards_a_tip(flow, rng):
-    """Near the tip of a finger one side has less and less to grow into."""
+    """Near the tip of a finger, one side has less and less room to grow."""
     mesh, _ = meshes.finger(rng)
     loops = [loop for height in (3.6, 4.2, 4.4, 4.5) for loop in meshes.plane_contours(mesh, [0, 0, 1], height)]
     assert len(loops) >= 3
@@ -83,7 +83,7 @@ def test_rings_of_a_band_shrink_towards_a_tip(flow, rng):
 
 @pytest.mark.parametrize("flow", FLOWS)
 def test_non_manifold_edges_stop_the_band(flow):
-    """A fin on a tube makes edges of three faces; a flipped face disagrees with its neighbors."""
+    """A fin on a tube creates edges of three faces; a flipped face has a winding inconsistent with its neighbors."""
     tube = meshes.tube(np.ones(11), 8)
     fin = ((7 * 8, 7 * 8 + 1, 88, 89),)
     positions = np.concatenate([tube.positions, [[1.5, 0.5, 7.0], [1.5, 0.0, 7.0]]])

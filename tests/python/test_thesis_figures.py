@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The points that the thesis's figures make (1.1, 3.3, chapter 5), in numbers, on bodies of known shape."""
+"""What the figures of the thesis show (1.1, 3.3, chapter 5), checked by numbers on bodies of known shape."""
 
 from functools import cache
 from itertools import pairwise
 
-import figures  # from blend_samples, which draws them
+import figures  # from blend_samples, which draws the figures
 import meshes
 import mrcontour as mrc
 import numpy as np
@@ -29,7 +29,7 @@ def run(figure, mesh, search, flow, **more):
 
 
 def results(name, flow):
-    """The figure, its mesh and the result of each of its searches by title."""
+    """A figure, its mesh, and the result of each of its searches by title."""
     figure, mesh = mesh_of(name)
     return figure, mesh, {search.title: run(figure, mesh, search, flow) for search in figure.searches}
 
@@ -40,14 +40,14 @@ def mean_edge(mesh):
 
 
 def samples(points, closed=True, count=8):
-    """Points at even steps along each segment of a curve."""
+    """Evenly spaced points along each segment of a curve."""
     following = np.roll(points, -1, axis=0) if closed else points[1:]
     share = np.arange(count)[:, None, None] / count
     return np.concatenate([((1 - share) * points[: len(following)] + share * following).reshape(-1, 3), points[-1:]])
 
 
 def distances(curve, other, closed=True):
-    """From points all along a curve to the nearest of another one."""
+    """The distances from points all along one curve to the nearest points of another."""
     apart = samples(curve, closed)[:, None] - samples(other, closed)[None]
     return np.linalg.norm(apart, axis=2).min(axis=1)
 
@@ -61,12 +61,12 @@ def length(points):
 
 
 def shortest_loop(mesh, faces):
-    """The shortest way along the edges of these faces once round the z axis: on two sheets that are joined where the
-    angle jumps, from a vertex of the first one to itself on the second."""
+    """The shortest path along the edges of these faces once around the z axis. It is the shortest path, on two copies
+    of the graph joined where the angle wraps around, from a vertex of the first copy to its twin in the second."""
     edges = {e for i in faces for e in zip(mesh.faces[i], mesh.faces[i][1:] + mesh.faces[i][:1])}
     tail, head = np.array(sorted(edges | {(b, a) for a, b in edges})).T
     angle = np.arctan2(mesh.positions[:, 1], mesh.positions[:, 0])
-    step = np.rint((angle[tail] - angle[head]) / (2 * np.pi)).astype(int)  # 1 where it goes round
+    step = np.rint((angle[tail] - angle[head]) / (2 * np.pi)).astype(int)  # 1 where the angle wraps around
     count, weight = len(angle), np.linalg.norm(mesh.positions[tail] - mesh.positions[head], axis=1)
     rows, columns = np.concatenate([tail, tail[step == 0] + count]), np.concatenate([head, head[step == 0] + count])
     columns[: len(tail)] += count * (step == 1)
@@ -82,7 +82,7 @@ def shortest_loop(mesh, faces):
     return np.array(path[1:][::-1]) % count
 
 
-# ---- all of them
+# ---- all figures
 
 
 @pytest.mark.parametrize("name", figures.FIGURES)
@@ -102,7 +102,7 @@ def test_figures_are_sound_and_reproducible_meshes(name):
 
 
 def wound_outward(figure, directed):
-    """A closed body has a volume above 0; an open sheet looks up or to the viewer, along -y."""
+    """Whether a closed body has positive volume, or an open sheet faces up or towards the viewer, along -y."""
     a, b, c = (figure.positions[[face[i] for face in figure.faces]] for i in range(3))
     if set(directed) == {(v, u) for u, v in directed}:
         return (a * np.cross(b, c)).sum() > 0
@@ -134,13 +134,13 @@ def test_1_1_every_start_on_the_finger_gives_the_base(flow):
 
 @all_flows
 def test_1_1_contour_near_the_tip_does_not_vanish(flow):
-    """What shortens a contour there moves it up, to nothing. In a band that does not hold the base it goes down
-    instead, round after round, or stays."""
+    """Shortening a contour there would move it up until it vanishes. If the band does not reach the base, the contour
+    moves down with each iteration, or stays."""
     figure, mesh, found = results("1.1", flow)
     narrow = figure.searches[-1]
     before, after = mesh.positions[narrow.given], found[narrow.title].positions
     angle = np.unwrap(np.arctan2(after[:, 1], after[:, 0]), period=2 * np.pi)
-    assert abs(angle[-1] - angle[0]) > np.pi  # it still goes round the finger
+    assert abs(angle[-1] - angle[0]) > np.pi  # it still goes around the finger
     assert after[:, 2].mean() < before[:, 2].mean()
     shortest = shortest_loop(mesh, range(len(mesh.faces)))
     assert mesh.positions[shortest, 2].min() > before[:, 2].mean()
@@ -152,7 +152,7 @@ def test_1_1_contour_near_the_tip_does_not_vanish(flow):
 
 @pytest.fixture
 def fragments():
-    """The three curves of figure 3.3, each with its parts: fragment A, completion, fragment C."""
+    """The three curves of figure 3.3, each divided into fragment A, completion and fragment C."""
     figure, mesh = mesh_of("3.3")
     curves = [figure.truths[0], *(search.given for search in figure.searches)]
     a, c = set(curves[0][: figures.FRAGMENT + 1]), set(curves[0][-figures.FRAGMENT - 1 :])
@@ -190,7 +190,7 @@ def test_3_3_search_returns_the_shortest_completion(flow, ends, fragments):
 
 
 def turning(mesh, result):
-    """Sum of the turns in the tangent plane; normals weighted by area, linear along edges."""
+    """The sum of the turns in the tangent plane, with normals weighted by area and linear along edges."""
     normals = np.zeros_like(mesh.positions)
     a, b, c = (mesh.positions[mesh.triangles[:, i]] for i in range(3))
     for i in range(3):
@@ -225,8 +225,8 @@ def test_5_1_refined_contours_turn_less_and_stay_close(flow, seed):
 @all_flows
 @pytest.mark.parametrize("seed", range(3))
 def test_5_2_loop_halfway_up_a_finger_moves_to_its_base(flow, seed):
-    """The finger's diameter only shrinks towards the tip, so a snake would slip off over it, and so does the shortest
-    loop of the same band. The base ring is the profile's only concave corner, marked when the mesh is made."""
+    """The finger becomes thinner towards the tip, so a snake would slip off over it, as does the shortest loop of the
+    same band. The base ring is the only concave corner of the profile, known from the construction of the mesh."""
     rng = np.random.default_rng(seed)
     mesh, base_ring = meshes.finger(rng)
     loops = meshes.plane_contours(mesh, [*rng.uniform(-0.15, 0.15, 2), 1.0], 1.9)
@@ -258,8 +258,9 @@ def test_5_2_refinement_stays_at_the_base(flow):
 
 @all_flows
 def test_5_2_finds_a_slanted_groove_on_regular_quads(flow):
-    """In the harmonic flow all edges across are level: without level edges no contour could leave its ring. The quads
-    are sheared where the groove crosses them, so that the stairs along it turn by a little more than a right angle."""
+    """In the harmonic flow all edges across the band are level: without level edges no contour could leave its ring.
+    The quads are sheared where the groove crosses them, so the steps along it turn by a little more than a right
+    angle."""
     rows, columns, slope = 61, 64, 0.5
     mesh = meshes.tube(np.ones(rows), columns, step=2 * np.pi / columns)
     x, y, z = mesh.positions.T
@@ -304,7 +305,7 @@ def front(points):
 
 @all_flows
 def test_5_4_narrow_band_stops_in_every_groove(flow):
-    """A jagged contour along a groove settles in it, and then there is nothing better within reach: a local minimum."""
+    """A jagged contour along a groove moves into it; then there is nothing better within reach: a local minimum."""
     figure, mesh = mesh_of("5.4")
     surface, edge = surface_of(mesh), mean_edge(mesh)
     options = mrc.Options(width=2, iterations=5, flow=flow)
@@ -349,15 +350,15 @@ def test_5_5_iterations_improve_until_they_converge_in_the_groove(side, flow):
     assert regular.history[-1] == regular.history[-2]
     assert refined.ratio < regular.ratio
     before = off_groove(mesh.positions[search.given])
-    assert before.min() < 1  # edges are about 1 long; at the eye's corners the groove is within reach of the band
-    assert (before > 3).mean() > 1 / 3  # for these parts it is not
+    assert before.min() < 1  # edges are about 1 long; at the corners of the eye, the band reaches the groove
+    assert (before > 3).mean() > 1 / 3  # elsewhere it does not
     assert off_groove(regular.positions).max() < 1.5
     assert off_groove(refined.positions).max() < 1.5
 
 
 @all_flows
 def test_5_5_searches_show_the_iterations(flow):
-    """Each picture's result is the one of a single run after so many iterations; the first does not get there."""
+    """The result in each picture is that of a single run after this many iterations; one iteration is not enough."""
     figure, _, found = results("5.5", flow)
     whole = found["after 5"].history
     for i in range(1, 6):
@@ -370,7 +371,7 @@ def test_5_5_searches_show_the_iterations(flow):
 
 
 def outside_face(points):
-    """How far points lie outside the outline of the face, in edges."""
+    """How far points lie outside the outline of the face, in edge lengths."""
     return figures.face_distance(points[:, 0], points[:, 2])
 
 
@@ -386,7 +387,7 @@ def test_5_6_three_vertices_hold_the_contour_on_the_chin(flow):
     assert not set(required) & set(free.vertices)
     assert set(required) <= set(held.vertices)
     assert abs(outside_face(held.positions)).max() < half_way
-    assert free.ratio < held.ratio  # the free one is better in truth: only the constraint can hold it
+    assert free.ratio < held.ratio  # without constraints it is really better: only the constraint can hold the contour
 
 
 # ---- 5.7: open curves
@@ -414,15 +415,18 @@ def edge_count(mesh, faces):
 @all_flows
 @pytest.mark.parametrize("k", [0, 1, 2, 3])
 def test_table_5_1_numbers_of_nodes_and_arcs(k, flow):
-    """Of a triangle's 6k^2 + 12k + 6 directed chords 6k(k + 1) cross it, and 2(k + 1) lie on each edge, shared with the
-    neighbor. One direction of each rises in the flow and is a node: 3k(k + 1) for each face and k + 1 for each edge.
-    By this the thesis's horse, with 979 faces and 1356 edges (it counts none on the band's border), has 8586 nodes for
-    k = 1 and 21690 for k = 2; the thesis says 8535 and 21332. Where the flow is level along edges, as on gates, these
-    are nodes both ways here, in the thesis none.
+    """The numbers follow from the triangulation, and nearly match those of the thesis.
 
-    Through a Steiner point a chord goes on to one of the 2k + 1 points across the next triangle, or along the edge: at
-    most 2k + 3 arcs for each node (k = 0: half of a vertex's six edges rise). The flow and the limit of turns leave 3.3
-    for k = 1 and 4.4 for k = 2, without the limit 4.3 and 5.6; the thesis has 4.2 and 5.9."""
+    Of the 6k^2 + 12k + 6 directed chords of a triangle, 6k(k + 1) cross it, and 2(k + 1) lie on each edge, shared with
+    the neighbor. One direction of each rises in the flow and is a node: 3k(k + 1) for each face and k + 1 for each
+    edge. So the horse of the thesis, with 979 faces and 1356 edges (not counting the band boundary), has 8586 nodes for
+    k = 1 and 21690 for k = 2; the thesis says 8535 and 21332. Edges along which the flow is level, as on gates, are
+    nodes in both directions here, but in the thesis they are no nodes.
+
+    Through a Steiner point, a chord continues to one of the 2k + 1 points across the next triangle, or along the edge:
+    at most 2k + 3 arcs for each node (k = 0: half of the six edges of a vertex rise). The flow and the limit on turns
+    leave 3.3 for k = 1 and 4.4 for k = 2, and without the limit 4.3 and 5.6; the thesis has 4.2 and 5.9.
+    """
     figure, mesh = mesh_of("5.1")
     surface, given = surface_of(mesh), figure.searches[0].given
     options = [mrc.Options(width=4, refinement=k, flow=flow, max_turn=turn) for turn in (np.pi / 2, np.pi)]
@@ -434,5 +438,5 @@ def test_table_5_1_numbers_of_nodes_and_arcs(k, flow):
     assert held["nodes"] == loose["nodes"]
     if flow == "harmonic":
         assert held["nodes"] == expected
-    assert expected <= held["nodes"] <= expected + (k + 1) * edges  # each edge both ways at most
+    assert expected <= held["nodes"] <= expected + (k + 1) * edges  # each edge in at most both directions
     assert k + 1 < held["arcs"] / held["nodes"] < loose["arcs"] / loose["nodes"] < 2 * k + 3

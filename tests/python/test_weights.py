@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Weights of the energy (attractors, anchor, crease, feature clamp, ridges), against the independent solver."""
+"""The weights of the energy (attractors, anchor, crease, feature clamp, ridges) against the independent solver."""
 
 from dataclasses import replace
 
@@ -64,7 +64,7 @@ def test_several_weights_match_the_independent_solver(seed):
     check(weighted_case(list(rng.permutation(kinds)[: rng.integers(2, 6)]), (0, 1, 0, 2)[seed % 4], seed))
 
 
-# ---- laws
+# ---- symmetries and guarantees
 
 ALL = {
     "anchor": 0.5,
@@ -85,7 +85,7 @@ def optimize(mesh, contour, pulls, scale=1.0, **options):
 @pytest.mark.parametrize("k", [0, 1])
 @pytest.mark.parametrize("denominator", ["length", "arcs"])
 def test_invariant_under_scaling_rigid_motion_and_reversal(realistic, k, denominator, rng):
-    """The attractors' radius and sigma scale along, band_distance is relative and stays."""
+    """The radius and sigma of attractors scale with the mesh; band_distance is relative and stays the same."""
     _, mesh, contour = realistic
     size, far = 41.0, float(np.ptp(mesh.positions)) / 3
     pulls = [(int(contour[0]), far, 1.5), (int(contour[len(contour) // 2]), far, -1.0, far / 3)]
@@ -104,7 +104,7 @@ def test_invariant_under_scaling_rigid_motion_and_reversal(realistic, k, denomin
 
 
 def test_band_distance_is_in_average_radii():
-    """It takes away the same faces at every size, and takes away some."""
+    """It removes the same faces at every scale of the mesh, and at least some."""
     cut = 0
     for _, mesh, contour in realistic_contours():
         bands = []
@@ -130,14 +130,14 @@ def test_measure_matches_the_result_after_iterations(realistic):
 
 
 def test_stronger_attractors_never_attract_less(realistic):
-    """A stronger attractor never takes the contour farther from where it is felt."""
+    """A stronger attractor never moves the contour to where it attracts less."""
     _, mesh, contour = realistic
     surface, options = surface_of(mesh), mrc.Options(flow="harmonic", width=3)
     space = mrc.search_space(surface, contour, options=options)
     center, radius = int(space["left"][-1][0]), float(np.ptp(mesh.positions)) / 4
 
     def felt(strength):
-        """How much of the pull the result feels: minus its numerator under an attractor of strength 1 alone."""
+        """How much the result is attracted: minus the part of its numerator from an attractor of strength 1."""
         result = mrc.optimize(surface, contour, options=options, attractors=[(center, radius, strength)])
         plain, pulled = (
             mrc.measure(surface, result, options=options, scales=result.scales, attractors=pulls)
@@ -150,7 +150,7 @@ def test_stronger_attractors_never_attract_less(realistic):
 
 
 def test_attractors_out_of_reach_change_nothing(realistic):
-    """Attractors that no place of the band feels change no bit, wherever they stand among those that are felt."""
+    """Attractors that do not reach the band change nothing to the last bit, wherever they stand in the list."""
     _, mesh, contour = realistic
     radius = float(np.ptp(mesh.positions)) / 30
     band = band_vertices(mesh, contour, width=2)
@@ -166,14 +166,14 @@ def test_attractors_out_of_reach_change_nothing(realistic):
 
 
 def band_vertices(mesh, contour, width):
-    """The vertices of a band."""
+    """The vertices of the band of a contour."""
     options = mrc.Options(**(ALL | {"width": width}))
     faces = mrc.band(surface_of(mesh), contour, options=options)
     return np.unique(np.concatenate([mesh.faces[face] for face in faces]))
 
 
 def inside_out(mesh):
-    """The same surface, seen from its other side: convex becomes concave."""
+    """The same surface seen from the other side: convex becomes concave."""
     return replace(mesh, faces=tuple(face[::-1] for face in mesh.faces), triangles=mesh.triangles[:, ::-1].copy())
 
 
