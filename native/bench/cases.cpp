@@ -16,7 +16,7 @@ void add_quad(std::vector<int>& triangles, int a, int b, int c, int d) { triangl
 
 void add_point(std::vector<double>& positions, double x, double y, double z) { positions.insert(positions.end(), {x, y, z}); }
 
-/// `columns` vertices round each of `rows` rings of edges of unit length, with waves and some noise; each variant has its own.
+/// `columns` vertices around each of `rows` rings of edges of unit length, with waves and some noise; each variant has its own.
 void add_tube(Arrays& arrays, int rows, int columns, int variant = 0) {
     std::mt19937 random(2006 + variant);
     std::uniform_real_distribution<double> noise(-0.15, 0.15);

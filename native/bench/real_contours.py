@@ -88,7 +88,7 @@ def demo_body(archive, name):
 
 
 def demo_contours(scratch, each=10):
-    """So many rough loops of each mesh, round limbs of all sizes."""
+    """So many rough loops of each mesh, around limbs of all sizes."""
     return [contour for body in demo_bodies(scratch) for contour in random_loops(body, each)]
 
 

@@ -20,7 +20,7 @@ struct MadeMesh {
 
 MadeMesh made_mesh(FuzzedDataProvider& data);
 
-/// Loops of vertices round a set of faces, that lie together in the mesh or in its list: what a user may have selected.
+/// Loops of vertices around a set of faces, that lie together in the mesh or in its list: what a user may have selected.
 std::vector<std::vector<int>> made_loops(const MadeMesh& mesh, FuzzedDataProvider& data);
 
 }  // namespace mrc
