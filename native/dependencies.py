@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fetches the sources of OpenMesh and Eigen into a folder for CMake's MRC_DEPENDENCIES, with pip, on any system."""
+"""Downloads the sources of OpenMesh and Eigen, with pip on any system, into a folder for CMake's MRC_DEPENDENCIES."""
 
 import argparse
 import shutil
@@ -8,8 +8,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-# Python bindings, whose source archive holds OpenMesh's own, and Eigen's headers as a wheel. Both are compiled into the
-# packages that are given away, so nothing but these very bytes will do.
+# The Python bindings of OpenMesh, whose source archive contains OpenMesh itself, and a wheel with the headers of Eigen.
+# Both are compiled into published packages, so their hashes are pinned.
 REQUIREMENTS = """
 openmesh==1.2.1 --hash=sha256:6fd3fa41a68148e4a7523f562426aa9758bf65ccc6642abcf79c37bae9c6af3c
 cmeel-eigen==3.4.1 --hash=sha256:0ccd7b73fe8a72e2729784253c982e75d1790e0a8c71f302eb5a1fb1dd3a8a90
@@ -18,7 +18,7 @@ PIP = [sys.executable, "-m", "pip", "download", "--no-deps", "--no-binary", "ope
 
 
 def fetch(folder):
-    """Downloads the two archives, whose bytes pip checks, and unpacks them there."""
+    """Downloads the two archives, whose hashes pip checks, and unpacks them."""
     requirements, archives = folder / "requirements.txt", folder / "archives"
     requirements.write_text(REQUIREMENTS, encoding="utf-8")
     subprocess.run([*PIP, "--require-hashes", "--requirement", requirements, "--dest", archives], check=True)

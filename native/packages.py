@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes the packages for Blender from wheels that stand on their own, all of one platform.
+"""Builds the packages for Blender from self-contained wheels, all for one platform.
 
-Each wheel of a Python that Blender 4.2 or later has becomes an extension; the others share one legacy add-on.
+Each wheel for a Python of Blender 4.2 or later becomes an extension. Those for older releases share one legacy add-on.
 """
 
 import argparse
@@ -17,7 +17,8 @@ from packaging.utils import parse_wheel_filename
 
 ADDON = Path(__file__).resolve().parents[1] / "addon"
 ID = "minimum_ratio_contours"
-# The Blenders that have each Python, from the first up to and without the last; before 4.2 there are no extensions.
+# The Blender releases with each Python: from the first up to, but not including, the second. Before 4.2 there are no
+# extensions.
 EXTENSION_RELEASES = {"cp311": ("4.2.0", "5.1.0"), "cp313": ("5.1.0", None)}
 LEGACY_PYTHONS = ("cp310", "cp311")
 PLATFORMS = {"linux": "linux", "manylinux": "linux", "musllinux": "linux", "win": "windows", "macosx": "macos"}
@@ -25,7 +26,7 @@ MACHINES = {"x86_64": "x64", "amd64": "x64", "arm64": "arm64", "aarch64": "arm64
 
 
 def read_name(wheel):
-    """Version, tag of the Python, and platform in Blender's words, of a wheel."""
+    """The version of a wheel, its Python tag, and its platform as Blender names it."""
     _, version, _, tags = parse_wheel_filename(wheel.name)
     tag = next(iter(tags))
     system = next(name for prefix, name in PLATFORMS.items() if tag.platform.startswith(prefix))
@@ -40,7 +41,7 @@ def package_name(wheels, kind):
 
 
 def manifest(wheel):
-    """The source's manifest, with what only a package can say."""
+    """The manifest in the source, completed with what is known only in a package."""
     version, python, platform = read_name(wheel)
     first, end = EXTENSION_RELEASES[python]
     text = (ADDON / "blender_manifest.toml").read_text(encoding="utf-8")
@@ -52,7 +53,7 @@ def manifest(wheel):
 
 
 def sources(version):
-    """The add-on's Python files, by their names in the package. Of them `__init__.py` says the version."""
+    """The Python files of the add-on, by their names in the package. The version is set in `__init__.py`."""
     files = {path.relative_to(ADDON).as_posix(): path.read_bytes() for path in sorted(ADDON.rglob("*.py"))}
     numbers = ", ".join(version.split("."))
     files["__init__.py"] = files["__init__.py"].replace(b'"version": (0, 0, 0)', f'"version": ({numbers})'.encode())
@@ -60,7 +61,7 @@ def sources(version):
 
 
 def build_extension(wheel, output, tool):
-    """Blender's own tool builds and validates the extension from a folder that holds nothing else."""
+    """Builds and validates the extension with Blender's own tool, from a folder that contains nothing else."""
     package = output / package_name([wheel], "extension")
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
@@ -79,14 +80,15 @@ def build_extension(wheel, output, tool):
 
 
 def build_legacy(wheels, output):
-    """One folder with the add-on, the modules for all Pythons, the libraries that they need, and the licenses."""
+    """Builds one folder with the add-on, the modules for all Python versions, the libraries they need, and the
+    licenses."""
     package = output / package_name(wheels, "legacy")
     files = {"": b""} | sources(read_name(wheels[0])[0])
     for wheel in wheels:
         files |= _library_files(wheel)
     with ZipFile(package, "w", ZIP_DEFLATED) as content:
         for name in sorted(files):
-            # Without an entry for the folder, Blender writes an upgrade into the very library that it has loaded.
+            # Without an entry for the folder, an upgrade would overwrite the library that Blender has loaded.
             entry = ZipInfo(f"{ID}/{name}")  # dated 1980
             entry.compress_type, entry.external_attr = ZIP_DEFLATED, (0o644 if name else 0o40755) << 16
             content.writestr(entry, files[name])
@@ -94,7 +96,8 @@ def build_legacy(wheels, output):
 
 
 def _library_files(wheel):
-    """What of a wheel belongs beside the add-on's Python: the module, the libraries grafted to it, the licenses."""
+    """The files of a wheel that belong next to the Python files of the add-on: module, bundled libraries and
+    licenses."""
     with ZipFile(wheel) as content:
         names = [name for name in content.namelist() if not name.endswith("/")]
         beside = {name: name for name in names if name.startswith(("mrcontour.", ".dylibs/"))}

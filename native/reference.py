@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes the reference of the module mrcontour and of the add-on's api as HTML, from their docstrings.
+"""Writes the API reference of the module mrcontour and of the add-on's module api, from their docstrings, as HTML.
 
-Fails on a warning and on a link to nowhere.
+Fails on warnings and broken links.
 """
 
 import argparse
@@ -22,7 +22,7 @@ ID = "minimum_ratio_contours"
 
 
 class BlenderStandIns(MetaPathFinder, Loader):
-    """Blender's modules, of which nothing is called while the add-on's docstrings are read."""
+    """Stand-ins for Blender's modules; none of their functions is called while docstrings are read."""
 
     def find_spec(self, name, path=None, target=None):
         found = name.partition(".")[0] in {"bpy", "bmesh", "gpu", "gpu_extras", "mathutils"}
@@ -38,7 +38,7 @@ class BlenderStandIns(MetaPathFinder, Loader):
 
 
 def load_addon():
-    """Under the name that it has in Blender before 4.2."""
+    """Imports the add-on under its name in Blender before 4.2."""
     sys.meta_path.append(BlenderStandIns())
     place = {"location": ADDON / "__init__.py", "submodule_search_locations": [str(ADDON)]}
     spec = importlib.util.spec_from_file_location(ID, **place)
@@ -48,7 +48,7 @@ def load_addon():
 
 
 def broken_links(folder):
-    """The links of the pages in a folder to pages or places that are not there."""
+    """The links on the pages of a folder to pages or anchors that do not exist."""
     pages = {page: page.read_text(encoding="utf-8") for page in folder.rglob("*.html")}
     places = {page: set(re.findall(r'\bid="([^"]+)"', text)) for page, text in pages.items()}
     broken = []
@@ -68,10 +68,10 @@ def main():
     warnings.simplefilter("error")
     modules = [mrcontour, load_addon()]
     pdoc.render.configure(docformat="markdown", show_source=False, footer_text=f"version {mrcontour.__version__}")
-    pdoc.render_helpers.markdown_extensions["breaks"] = {"on_newline": True}  # each argument has a line of its own
+    pdoc.render_helpers.markdown_extensions["breaks"] = {"on_newline": True}  # each argument is on a line of its own
     pdoc.pdoc(*(module.__name__ for module in modules), output_directory=output)
     if broken := broken_links(output):
-        sys.exit("\n".join(["these links lead nowhere:", *broken]))
+        sys.exit("\n".join(["broken links:", *broken]))
 
 
 if __name__ == "__main__":

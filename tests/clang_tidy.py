@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs clang-tidy over the C++ files that changed since it last passed whole, or over all; leaves a JUnit report.
+"""Runs clang-tidy on the C++ files that changed since all files last passed, or on all, and writes a JUnit report.
 
-A changed header means the files that include it. The commit of the last whole pass is kept in .clang-tidy-passed.
-Where it is unknown, as in a shallow clone, or where the checks themselves changed, all files are to be checked. A time
-limit may leave files for later; the report counts them as skipped. What passed is remembered in the build folder by its
-content, so that the next run goes on with the rest.
+A changed header selects the files that include it. The commit on which all files last passed is kept in
+.clang-tidy-passed. If it is unknown, as in a shallow clone, or if the checks themselves changed, all files are checked.
+Files left out because of a time limit are reported as skipped. Files that passed are recorded in the build folder by
+their content, so that the next run continues with the rest.
 """
 
 import argparse
@@ -25,7 +25,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 
 
 def git(*arguments):
-    """The output's lines, or None where git cannot answer. A container's owner may not be the clone's."""
+    """The lines of the output, or None if git fails. In a container, the clone may belong to another user."""
     run = subprocess.run(
         ["git", "-c", f"safe.directory={ROOT}", "-C", ROOT, *arguments], capture_output=True, text=True
     )
@@ -33,7 +33,7 @@ def git(*arguments):
 
 
 def changed_files():
-    """What is not as it was when clang-tidy last passed whole; None where that is unknown."""
+    """The files that changed since all files last passed, or None if that is unknown."""
     passed = PASSED.read_text().split()[0] if PASSED.exists() else ""
     differing = git("diff", "--name-only", "--no-renames", f"{passed}^{{commit}}", "--") if passed else None
     untracked = git("ls-files", "--others", "--exclude-standard")
@@ -68,7 +68,7 @@ class Includes:
 
 
 def chosen_units(units, includes, changed):
-    """The units to check: first those that changed themselves, then those whose own header did, then the rest."""
+    """The units to check: first those that changed, then those whose own header changed, then the rest."""
 
     def rank(unit):
         own_header = any(header.stem == unit.stem and header in changed for header in includes.all(unit))
@@ -78,7 +78,7 @@ def chosen_units(units, includes, changed):
 
 
 def content_key(tool, command, unit, includes):
-    """Names what a finding depends on in this repository: while it stays, a pass stays a pass."""
+    """A hash of everything in this repository that a result depends on: while it is the same, so is the result."""
     parts = [tool, command]
     for path in (unit, *sorted(includes.all(unit)), ROOT / ".clang-tidy", *sorted(ROOT.glob("*/*/.clang-tidy"))):
         parts += [str(path.relative_to(ROOT)), path.read_text(encoding="utf-8")]
@@ -86,7 +86,7 @@ def content_key(tool, command, unit, includes):
 
 
 def report(path, results, since):
-    """A test for each unit: None passed, "" was left, else what was found."""
+    """Writes a test case for each unit: None means passed, "" skipped, and other text is the failure."""
     suite = ElementTree.Element("testsuite", name="clang-tidy", tests=str(max(1, len(results))))
     suite.set("failures", str(sum(bool(found) for found in results.values())))
     suite.set("skipped", str(sum(found == "" for found in results.values())))
@@ -102,8 +102,8 @@ def main():
     parser.add_argument("--tool", default="clang-tidy", help="the program")
     parser.add_argument("--build", type=Path, required=True, help="a build folder with compile_commands.json")
     parser.add_argument("--report", type=Path, required=True, help="where the JUnit report goes")
-    parser.add_argument("--whole", action="store_true", help="check all files, and note the commit where they pass")
-    parser.add_argument("--seconds", type=float, default=float("inf"), help="start no file after that")
+    parser.add_argument("--whole", action="store_true", help="check all files, and record the commit if they pass")
+    parser.add_argument("--seconds", type=float, default=float("inf"), help="start no file after this time")
     arguments = parser.parse_args()
 
     commands = json.loads((arguments.build / "compile_commands.json").read_text())
@@ -133,14 +133,14 @@ def main():
 
     with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
         results = dict(zip((unit.relative_to(ROOT) for unit in units), pool.map(check, units)))
-    since = PASSED.read_text().split()[0] if PASSED.exists() else "a commit that is not known"
+    since = PASSED.read_text().split()[0] if PASSED.exists() else "an unknown commit"
     report(arguments.report, results, since)
     left = sum(found == "" for found in results.values())
-    print(f"{len(results)} files to check since {since}, {left} left for another run")
+    print(f"{len(results)} files to check since {since}, {left} left for the next run")
     clean = git("status", "--porcelain", "--", "*.cpp", "*.h", "*.clang-tidy") == []
     if arguments.whole and clean and not any(found is not None for found in results.values()):
         (head,) = git("rev-parse", "HEAD")
-        PASSED.write_text(f"{head} is the last commit on which clang-tidy passed whole: tests/run --full lint\n")
+        PASSED.write_text(f"{head} is the last commit on which all files passed clang-tidy: tests/run --full lint\n")
     sys.exit(any(results.values()))
 
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# MRC_DEPENDENCIES: for systems that package neither Eigen nor OpenMesh, and for libraries that stand on their own: a folder that
-# native/dependencies.py filled. Of OpenMesh it has the part of the core that meshes without files need, compiled in.
+# MRC_DEPENDENCIES is a folder filled by native/dependencies.py, for systems without packages of Eigen and OpenMesh and for
+# self-contained libraries. Only the part of the OpenMesh core that does not deal with files is compiled in.
 cmake_path(ABSOLUTE_PATH MRC_DEPENDENCIES BASE_DIRECTORY ${PROJECT_SOURCE_DIR} NORMALIZE)
 set(Eigen3_ROOT ${MRC_DEPENDENCIES}/eigen)
 
-# Windows: the C++ runtime is compiled in too, since Blender preloads an old one, and Python alone brings none.
+# On Windows the C++ runtime is linked statically too: Blender preloads an old one, and Python alone provides none.
 set(CMAKE_MSVC_RUNTIME_LIBRARY MultiThreaded$<$<CONFIG:Debug>:Debug>)
 
 set(openmesh_core ${MRC_DEPENDENCIES}/openmesh/src/OpenMesh/Core)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# cmake --install BUILD [--prefix PREFIX]: the core library, its headers and license, and what find_package(mrc) needs; no Python.
+# cmake --install BUILD [--prefix PREFIX] installs the core library, its headers and license, and the files for find_package(mrc),
+# but nothing for Python.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 

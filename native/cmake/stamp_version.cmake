@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Part of laying out the add-on, after MRC_ADDON and MRC_VERSION are set: its source has 0.0.0 in the place of the version.
+# Sets the version of the installed add-on, whose source says 0.0.0. MRC_ADDON and MRC_VERSION must be set.
 string(REPLACE "." ", " numbers ${MRC_VERSION})
 foreach(name __init__.py blender_manifest.toml)
     set(file ${CMAKE_INSTALL_PREFIX}/${MRC_ADDON}/${name})

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Moves a ring of a waisted tube into the waist, with nothing but what is installed; fails where it lands elsewhere.
+// Moves a ring of a waisted tube into the waist, using only the installed library; fails if it lands elsewhere.
 #include "all_headers.h"
 
 #include <cmath>
@@ -31,8 +31,8 @@ int main() {
     mrc::Options options;
     options.width = 6;
     const mrc::Result result = mrc::optimize(waisted_tube(), mrc::vertex_contour(ring), options);
-    int off = 0;
-    for (const mrc::SurfacePoint& point : result.contour.points) off += point.a / columns != waist;
-    std::printf("%zu points, %d of them off the waist\n", result.contour.points.size(), off);
-    return result.status == mrc::Status::improved && off == 0 ? 0 : 1;
+    int off_waist = 0;
+    for (const mrc::SurfacePoint& point : result.contour.points) off_waist += point.a / columns != waist;
+    std::printf("%zu points, %d of them off the waist\n", result.contour.points.size(), off_waist);
+    return result.status == mrc::Status::improved && off_waist == 0 ? 0 : 1;
 }
