@@ -16,7 +16,7 @@ void add_quad(std::vector<int>& triangles, int a, int b, int c, int d) { triangl
 
 void add_point(std::vector<double>& positions, double x, double y, double z) { positions.insert(positions.end(), {x, y, z}); }
 
-/// `columns` vertices around each of `rows` rings of edges of unit length, with waves and some noise; each variant has its own.
+/// A tube with `columns` vertices around each of `rows` rings, edges of about unit length, waves, and noise that differs by variant.
 void add_tube(Arrays& arrays, int rows, int columns, int variant = 0) {
     std::mt19937 random(2006 + variant);
     std::uniform_real_distribution<double> noise(-0.15, 0.15);
@@ -37,12 +37,12 @@ void add_tube(Arrays& arrays, int rows, int columns, int variant = 0) {
     }
 }
 
-void add_torus(Arrays& arrays, int faces, double away) {
+void add_torus(Arrays& arrays, int faces, double offset) {
     const int first = static_cast<int>(arrays.positions.size() / 3), side = static_cast<int>(std::sqrt(faces / 2.0));
     for (int i = 0; i < side; ++i) {
         for (int j = 0; j < side; ++j) {
             const double u = 2.0 * pi * i / side, v = 2.0 * pi * j / side, ring = side * (1.0 + 0.3 * std::cos(v));
-            add_point(arrays.positions, away + ring * std::cos(u), ring * std::sin(u), 0.3 * side * std::sin(v));
+            add_point(arrays.positions, offset + ring * std::cos(u), ring * std::sin(u), 0.3 * side * std::sin(v));
         }
     }
     const auto at = [&](int i, int j) { return first + (i % side) * side + j % side; };
@@ -51,7 +51,7 @@ void add_torus(Arrays& arrays, int faces, double away) {
     }
 }
 
-/// The rows and columns of a tube whose middle ring has a band of so many faces, about as wide as long.
+/// The rows and columns of a tube whose middle ring has a band of this many faces, about as wide as long.
 struct Shape {
     int width, columns, rows;
 };
@@ -68,7 +68,7 @@ mrc::Options options_for(const Shape& shape, int refinement) {
     return options;
 }
 
-/// Round the tube, with a step up and down every four columns.
+/// A ring around the tube, with a step up and down every four columns.
 mrc::Contour jagged_ring(int lower, int columns) {
     std::vector<int> ring;
     int row = lower;

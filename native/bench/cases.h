@@ -16,11 +16,11 @@ struct Case {
     mrc::Options options;
 };
 
-/// A wavy tube of triangles with a jagged ring half way up, whose band has about so many faces. `more_faces`: of another body that is
-/// part of the mesh and far away. `variant`: another tube of the same size.
+/// A wavy tube of triangles with a jagged ring halfway up, whose band has about `band_faces` faces. `more_faces` adds another body
+/// with this many faces to the mesh, far away; `variant` selects another tube of the same size.
 Case tube_case(int band_faces, int refinement, int more_faces = 0, int variant = 0);
 
-/// A tube with room for so many contours, each with a band of about so many faces out of reach of the others'.
+/// A tube with several contours, whose bands of about `band_faces` faces are out of each other's reach.
 struct Row {
     mrc::Surface surface;
     std::vector<mrc::Contour> contours;
@@ -28,7 +28,7 @@ struct Row {
 };
 Row contours_in_a_row(int count, int band_faces, int refinement);
 
-/// The arrays of a torus of about so many triangles, in file order.
+/// The arrays of a torus with about this many faces, in regular order.
 struct Arrays {
     std::vector<double> positions;
     std::vector<int> triangles;
@@ -36,7 +36,7 @@ struct Arrays {
 };
 Arrays torus_arrays(int faces);
 
-/// One relaxation of the graph from all its sources: what any search takes at least.
+/// One relaxation of the graph from all its sources: a lower bound on the time of any search.
 double bare_pass(const mrc::WeightedGraph& graph, double lambda, std::vector<double>& value);
 
 }  // namespace mrc_bench

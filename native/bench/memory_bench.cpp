@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The peak of live heap bytes during a call, exactly: this program's malloc counts, which all libraries below it use. It is a program
-// of its own, so that counting slows no other benchmark.
+// The exact peak of heap memory during a call, counted by this program's own malloc, which all libraries in it use. It is a separate
+// program so that counting does not slow down the other benchmarks.
 #include "cases.h"
 
 #include <benchmark/benchmark.h>
@@ -13,7 +13,7 @@
 #include <cstddef>
 
 extern "C" {
-// glibc's own, under the names that it exports for programs with their own malloc.
+// The functions of glibc, under the names that it exports for programs with their own malloc.
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* block, std::size_t size);
@@ -62,7 +62,7 @@ void free(void* block) noexcept {
 
 namespace {
 
-/// Bytes at the peak of a call, beyond what lived before it. The second call counts: the first fills what is kept for good.
+/// Bytes at the peak of a call, beyond those allocated before. The second call is measured, since the first fills permanent caches.
 void memory(benchmark::State& state) {
     const mrc_bench::Case c = mrc_bench::tube_case(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
     mrc::optimize(c.surface, c.contour, c.options);
@@ -74,7 +74,7 @@ void memory(benchmark::State& state) {
     state.counters["faces"] = statistics.faces;
     state.counters["arcs"] = statistics.arcs;
     state.counters["bytes"] = bytes;
-    state.counters["bytes_an_arc"] = bytes / statistics.arcs;
+    state.counters["bytes_per_arc"] = bytes / statistics.arcs;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The best peer, for comparison only: a band's minimum cut with PyMaxflow, capacity length * exp(7 sin dihedral)."""
+"""The best competitor, for comparison only: the minimum cut of a band, by PyMaxflow with the capacities
+length * exp(7 sin(dihedral angle))."""
 
 from dataclasses import dataclass
 
@@ -12,7 +13,7 @@ UNCUT = 1e9
 
 @dataclass(frozen=True)
 class CutBand:
-    """The arrays a cut starts from: the band's triangles, and which of them lie on its left and on its right border."""
+    """The input of a cut: the triangles of the band, and which of them are on its left and on its right boundary."""
 
     triangles: np.ndarray
     left: np.ndarray
@@ -20,7 +21,7 @@ class CutBand:
 
 
 def cut_band(body, vertices, options):
-    """The same band as a call's; None where one of its sides is empty."""
+    """The band that a call searches, or None if one of its sides is empty."""
     space = mrc.search_space(body.surface, vertices, options=options)
     side, entered = np.zeros((2, len(body.positions)), int)
     side[space["vertices"]], entered[space["vertices"]] = space["side"], space["round"]
@@ -35,7 +36,7 @@ def cut_band(body, vertices, options):
 
 
 def minimum_cut(positions, band):
-    """Solve and set-up, from arrays: the side of each triangle."""
+    """Builds the graph from arrays and solves it: the side of each triangle."""
     first, second, ends = inner_edges(band.triangles, len(positions))
     graph = maxflow.GraphFloat(len(band.triangles), len(first))
     graph.add_nodes(len(band.triangles))
@@ -49,7 +50,7 @@ def minimum_cut(positions, band):
 
 
 def inner_edges(triangles, vertex_count):
-    """The two triangles at each edge inside the band, and its ends in the direction of the first."""
+    """The two triangles at each inner edge of the band, and the ends of the edge in the direction of the first."""
     ends = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
     key = ends.min(axis=1).astype(np.int64) * vertex_count + ends.max(axis=1)
     order = np.argsort(key, kind="stable")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is measured through the Python module: real contours, and what NumPy and PyMaxflow need for theirs. Writes JSON.
+"""Measures real contours through the Python module, and NumPy and PyMaxflow for comparison. Writes JSON.
 
-What is compared is timed in turn, in one process; a time is the median of its rounds.
+Calls that are compared are timed alternately in one process; each time is the median over its rounds.
 """
 
 import argparse
@@ -16,7 +16,7 @@ import numpy as np
 from min_cut import cut_band, minimum_cut
 from real_contours import demo_contours, folder_contours, spread
 
-# Where the add-on's contours land closest to what people draw, but for min_salience.
+# The options with which the add-on's contours are closest to those that people draw, except min_salience.
 CLOSEST = {
     "width": 8,
     "band_distance": 0.16,
@@ -28,7 +28,7 @@ CLOSEST = {
 }
 LENGTH_BIAS = 2.0
 
-# Tables 5.1 and 5.2: mesh, k, width and faces of the band.
+# Tables 5.1 and 5.2: mesh, k, width, and number of faces of the band.
 THESIS_BANDS = [
     ("Horse", 0, 2, 979),
     ("Horse", 1, 2, 979),
@@ -49,12 +49,12 @@ def seconds_of(call):
 
 
 def in_turn(calls, rounds):
-    """The median seconds of each call, all of them taken once in every round."""
+    """The median seconds of each call; every round makes each call once."""
     return np.median([[seconds_of(call) for call in calls] for _ in range(rounds)], axis=0)
 
 
 def optimize(contour, rounds=1, **options):
-    """The result's statistics, with the median seconds of every stage and of the whole call."""
+    """The statistics of the result, with the median seconds of every stage and of the whole call."""
     runs = []
     for _ in range(rounds):
         start = time.perf_counter()
@@ -65,13 +65,13 @@ def optimize(contour, rounds=1, **options):
 
 
 def bands_of(contours, faces, count):
-    """Up to so many contours that have a band of about so many faces, with its width."""
+    """Up to `count` contours that have a band of about this many faces, with its width."""
     sized = ((contour, contour.width_for(faces)) for contour in contours)
     return list(itertools.islice(((contour, width) for contour, width in sized if width), count))
 
 
 def passes(contours, count):
-    """Of calls with k = 2 and bands of about 1,000 faces."""
+    """The passes of calls with k = 2 and bands of about 1,000 faces."""
     calls = [optimize(contour, width=width, refinement=2) for contour, width in bands_of(contours, 1000, count)]
     return {
         "contours": len(calls),
@@ -100,7 +100,7 @@ def medians(calls):
 
 
 def against_minimum_cut(contours, rounds):
-    """The whole call, k = 0, beside the minimum cut of the same band."""
+    """The whole call with k = 0, compared with the minimum cut of the same band."""
     options, ours, cuts, faces = mrc.Options(), [], [], []
     for contour in contours:
         body = contour.body
@@ -122,7 +122,7 @@ def against_minimum_cut(contours, rounds):
 
 
 def torus(triangles):
-    """A torus of about so many triangles, in file order."""
+    """A torus of about this many triangles, in regular order."""
     side = int(np.sqrt(triangles / 2))
     u, v = np.meshgrid(*[np.arange(side) * 2 * np.pi / side] * 2, indexing="ij")
     ring = 1 + 0.3 * np.cos(v)
@@ -135,7 +135,7 @@ def torus(triangles):
 
 
 def surface(triangle_count, rounds):
-    """`Surface` from arrays beside NumPy's default sort of the keys of the same directed edges."""
+    """`Surface` from arrays, compared with NumPy's default sort of the keys of the same directed edges."""
     positions, triangles = torus(triangle_count)
     keys = (triangles.astype(np.int64) * len(positions) + np.roll(triangles, -1, axis=1)).ravel()
     times = in_turn([lambda: mrc.Surface(positions, None, triangles), lambda: np.argsort(keys)], rounds)
@@ -149,7 +149,7 @@ def surface(triangle_count, rounds):
 
 
 def length_bias(contours):
-    """Calls with k = 0, with the length bias beside without: how many close their gap, and what that takes."""
+    """Calls with k = 0, with and without length bias: the fraction that closes the gap, and the time it takes."""
     closed, stage, whole = [], [], []
     for contour in contours:
         biased = optimize(contour, **CLOSEST, length_bias=LENGTH_BIAS)
@@ -166,7 +166,7 @@ def length_bias(contours):
 
 
 def thesis_rows(contours, rounds):
-    """For each band of table 5.1 the real contour whose band of the same width has most nearly as many faces."""
+    """For each band of table 5.1, the real contour whose band of the same width has the closest number of faces."""
     rows = []
     for name, k, width, faces in THESIS_BANDS:
         off = [abs(contour.band_faces(width) - faces) for contour in contours]
@@ -195,7 +195,7 @@ def measure(arguments):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("output", type=Path, help="the JSON file to write")
-    parser.add_argument("--scratch", required=True, help="a folder for what is downloaded")
+    parser.add_argument("--scratch", required=True, help="a folder for downloads")
     parser.add_argument("--contours", help="a folder with contours drawn on real meshes")
     parser.add_argument("--quick", action="store_true", help="few contours, small meshes")
     arguments = parser.parse_args()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rough contours on real meshes: cut from those of Debian's libcgal-demo, or of a benchmark folder named."""
+"""Rough contours on real meshes: cut from those of Debian's libcgal-demo, or read from a benchmark folder."""
 
 import gzip
 import importlib
@@ -35,13 +35,13 @@ CLOSED_MESHES = [
     "retinal",
     "triceratops",
 ]
-SHORTEST, LONGEST = 16, 120  # edges of a rough loop: shorter ones are specks, longer ones no limb's
-PLANES = 4  # tried through a point
+SHORTEST, LONGEST = 16, 120  # edges of a rough loop: shorter ones are specks, longer ones do not go around a limb
+PLANES = 4  # planes tried through each point
 
 
 @dataclass(frozen=True)
 class Body:
-    """A real mesh of triangles, as arrays and as a surface."""
+    """A real triangle mesh, as arrays and as a surface."""
 
     name: str
     positions: np.ndarray
@@ -60,7 +60,7 @@ class RealContour:
         return len(mrc.band(self.body.surface, self.vertices, options=mrc.Options(width=width)))
 
     def width_for(self, faces):
-        """The width, at most 64, whose band is nearest to so many faces; None where it is off by more than a third."""
+        """The width, at most 64, whose band is closest to this many faces; None if it is off by more than a third."""
         found = []
         while len(found) < 64 and max(found, default=0) < faces:
             found.append(self.band_faces(len(found) + 1))
@@ -76,7 +76,7 @@ def make_body(name, positions, triangles):
 
 @cache
 def demo_bodies(scratch):
-    """The closed meshes of libcgal-demo; `scratch`: a folder for the package where the system holds no documents."""
+    """The closed meshes of libcgal-demo. `scratch` is a folder for the package if the system installs no documents."""
     with open_archive(Path(scratch)) as archive:
         return [demo_body(archive, name) for name in CLOSED_MESHES]
 
@@ -88,12 +88,12 @@ def demo_body(archive, name):
 
 
 def demo_contours(scratch, each=10):
-    """So many rough loops of each mesh, around limbs of all sizes."""
+    """Rough loops around limbs of all sizes, `each` on every mesh."""
     return [contour for body in demo_bodies(scratch) for contour in random_loops(body, each)]
 
 
 def random_loops(body, count):
-    """Loops across limbs, roughly: of a few planes at random through a vertex, the one that cuts the shortest loop."""
+    """Loops roughly across limbs: the shortest of those cut by a few random planes through a vertex."""
     rng = np.random.default_rng(2006)
     polygons = Polygons(body.positions, 3 * np.arange(len(body.triangles) + 1), body.triangles.ravel())
     loops = []
@@ -124,9 +124,9 @@ def usable(body, loop):
 
 
 def folder_contours(folder):
-    """The closed contours that several people drew nearly alike, of a folder with cases.jsonl.gz and the module npzx.
+    """The closed contours on which several people nearly agreed, from a folder with cases.jsonl.gz and the module npzx.
 
-    The meshes lie in ../data/psb beside it.
+    The meshes are in ../data/psb, relative to the folder.
     """
     folder = Path(folder).resolve()
     sys.path.insert(0, str(folder))
@@ -142,7 +142,7 @@ def folder_contours(folder):
 
 
 def spread(items, count):
-    """So many of a list, evenly spread over it."""
+    """`count` items of a list, evenly spaced."""
     if len(items) <= count:
         return list(items)
     return [items[i] for i in np.linspace(0, len(items) - 1, count).astype(int)]

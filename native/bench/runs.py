@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What Google Benchmark wrote: the median over the repetitions of each benchmark."""
+"""Reads the output of Google Benchmark: the median over the repetitions of each benchmark."""
 
 import json
 from collections import defaultdict
@@ -12,7 +12,7 @@ UNITS = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
 
 @dataclass(frozen=True)
 class Run:
-    """One benchmark: its arguments, and what it measured; `seconds` of the processor, `real_seconds` by the clock."""
+    """One benchmark: its arguments and measurements. `seconds` is processor time, `real_seconds` wall-clock time."""
 
     arguments: dict
     seconds: float
@@ -37,7 +37,7 @@ class Runs:
         self._runs = defaultdict(list)
         for name, rows in repetitions.items():
             self._runs[name.split("/")[0]].append(run_of(name, rows))
-        for runs in self._runs.values():  # interleaved, they were written in any order
+        for runs in self._runs.values():  # being interleaved, they were written in any order
             runs.sort(key=lambda run: tuple(reversed(run.arguments.values())))
 
     def of(self, function, **arguments):
@@ -45,7 +45,7 @@ class Runs:
         return [run for run in self._runs[function] if arguments.items() <= run.arguments.items()]
 
     def one(self, function, **arguments):
-        """The only such run, or None."""
+        """The only run of a benchmark with these arguments, or None."""
         return next(iter(self.of(function, **arguments)), None)
 
     def pairs(self, function, other, **arguments):

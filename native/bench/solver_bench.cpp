@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The ratio stage beside its baselines on the same graphs: one bare pass, the thesis's search, a shared lambda without bounds, and
-// Karp's program. Arguments: faces of the band, and k.
+// The ratio stage compared with its baselines on the same graphs: one bare pass, the thesis's search, a shared lambda without bounds,
+// and Karp's dynamic program. Arguments: the number of faces of the band, and k.
 #include "cases.h"
 #include "karp_search.h"
 #include "search_space.h"
@@ -51,7 +51,7 @@ void ratio(State& state) {
     report(state, graph, result.passes);
 }
 
-/// A whole call at 20,000 faces and k = 2 for each variant of the tube: only its passes count.
+/// A whole call with 20,000 faces and k = 2 for each variant of the tube; only the number of passes is of interest.
 void passes(State& state) {
     const mrc_bench::Case c = mrc_bench::tube_case(20'000, 2, 0, static_cast<int>(state.range(0)));
     mrc::Result result;

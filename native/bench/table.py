@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes the benchmarks' results as Markdown: one row for each bar, then what stands behind them."""
+"""Writes the benchmarks' results as Markdown: one row for each target, then the measurements in detail."""
 
 import argparse
 import json
@@ -11,10 +11,10 @@ from runs import Runs
 BEFORE_RATIO = ["patch", "curvature", "band", "flow", "graph"]
 STAGES = [*BEFORE_RATIO, "ratio"]
 TABLE = Path(__file__).with_name("TABLE.md")
-BY_HAND = "<!-- From here on written by hand: native/bench/run keeps it. -->"
+BY_HAND = "<!-- Written by hand from here on; kept by native/bench/run. -->"
 
 # Tables 5.1 and 5.2, in the order of real_bench.THESIS_BANDS: faces, size of cut, nodes, arcs, most linear steps,
-# seconds before the minimum ratio and for it, in an iteration.
+# and, for one iteration, seconds before the minimum ratio stage and in it.
 THESIS = [
     (979, 9, 1356, 3588, 4, 0.10, 0.01),
     (979, 34, 8535, 35833, 5, 0.14, 0.33),
@@ -29,13 +29,13 @@ THESIS = [
 
 
 def markdown(columns, rows):
-    """A table; rows of None are left out."""
+    """A Markdown table; rows that are None are left out."""
     lines = [columns, ["---"] * len(columns), *(row for row in rows if row)]
     return "\n".join("| " + " | ".join(map(str, line)) + " |" for line in lines)
 
 
 def number(value):
-    """Three digits that count, without an exponent."""
+    """Three significant digits, without an exponent."""
     return f"{value:,.0f}" if abs(value) >= 100 else f"{value:.3g}"
 
 
@@ -43,20 +43,20 @@ def ms(seconds):
     return number(1e3 * seconds)
 
 
-def bar(what, measured, text, met):
+def target(what, measured, text, met):
     return [what, measured, text, "met" if met else "**not met**"]
 
 
 def at_most(what, value, most, note=""):
-    return bar(what, number(value) + note, f"at most {most}", value <= most)
+    return target(what, number(value) + note, f"at most {most}", value <= most)
 
 
 def at_least(what, value, least, note="", unit=" times"):
-    return bar(what, number(value) + note, f"at least {least}{unit}", value >= least)
+    return target(what, number(value) + note, f"at least {least}{unit}", value >= least)
 
 
 def slope(sizes, values):
-    """Of the values over the sizes, both as logarithms."""
+    """The log-log slope of the values as a function of the sizes."""
     return float(np.polyfit(np.log(sizes), np.log(values), 1)[0])
 
 
@@ -64,11 +64,11 @@ def joined(values):
     return ", ".join(number(value) for value in values)
 
 
-def passes_bars(real):
+def passes_targets(real):
     for name, found in real["passes"].items():
         median, most, worst = np.percentile(found["passes"], [50, 95, 100])
         what = f"passes, k = 2, {found['contours']} contours of {name}, {found['faces']:,.0f} faces in the median"
-        yield bar(
+        yield target(
             what,
             f"median {number(median)}, 95 % within {number(np.ceil(most))}, worst {number(worst)}",
             "median at most 8, 95 % within 16, worst at most 30",
@@ -76,22 +76,24 @@ def passes_bars(real):
         )
 
 
-def large_passes_bar(runs):
+def large_passes_target(runs):
     found = [run["passes"] for run in runs.of("passes")]
     if found:
         yield at_most(f"the same, 20,000 faces, worst of {len(found)} tubes", max(found), 25)
 
 
-def solver_bars(runs):
+def solver_targets(runs):
     for k, least in ((2, 50), (0, 8)):
         times = [thesis.seconds / ours.seconds for ours, thesis in runs.pairs("ratio", "thesis", k=k)]
         if times:
             mean = float(np.exp(np.mean(np.log(times))))
-            yield at_least(f"`ratio` against the thesis's search, k = {k}, geometric mean", mean, least)
+            yield at_least(f"`ratio` relative to the thesis's search, k = {k}, geometric mean", mean, least)
     ours = [ratio.seconds / bare.seconds for ratio, bare in runs.pairs("ratio", "bare_pass", k=2)]
-    yield at_most("`ratio` against one bare pass, k = 2, median over the bands", float(np.median(ours)), 12)
+    yield at_most("`ratio` relative to one bare pass, k = 2, median over the bands", float(np.median(ours)), 12)
     call, bare = (runs.one(name, faces=1000, k=2) for name in ("optimize", "bare_pass"))
-    yield at_most("the whole call against one bare pass, k = 2, tube of 1,000 faces", call.seconds / bare.seconds, 40)
+    yield at_most(
+        "the whole call relative to one bare pass, k = 2, tube of 1,000 faces", call.seconds / bare.seconds, 40
+    )
 
 
 def pass_slope(runs, k):
@@ -108,79 +110,92 @@ def stage_slope(runs, k, value):
     return slope([run["faces"] for run in bands], [value(run) for run in bands])
 
 
-def growth_bars(runs):
+def growth_targets(runs):
     faces = [run["faces"] for run in runs.of("ratio", k=0)]
     span = f"log-log slope, {min(faces):,} to {max(faces):,} faces, k = 0, 1, 2"
     arcs = [pass_slope(runs, k) for k in (0, 1, 2)]
-    yield bar(f"time per arc and pass against faces, {span}", joined(arcs), "at most 0.15", max(arcs) <= 0.15)
+    yield target(
+        f"time per arc and pass as a function of faces, {span}", joined(arcs), "at most 0.15", max(arcs) <= 0.15
+    )
     stages = [stage_slope(runs, k, before_ratio) for k in (0, 1, 2)]
-    yield bar(f"the stages before `ratio`, {span}", joined(stages), "at most 1.15", max(stages) <= 1.15)
+    yield target(f"the stages before `ratio`, {span}", joined(stages), "at most 1.15", max(stages) <= 1.15)
 
 
 def sameness(*found):
-    return ", same bytes" if all(run["same"] for run in found) else ", **other bytes**"
+    return ", same bytes" if all(run["same"] for run in found) else ", **different bytes**"
 
 
-def beside_bar(runs):
-    beside = runs.of("optimize_beside")
-    small, large = beside[0], beside[-1]
-    what = f"the same band within {large['triangles']:,} triangles against within {small['triangles']:,}"
+def mesh_size_target(runs):
+    in_mesh = runs.of("optimize_in_mesh")
+    small, large = in_mesh[0], in_mesh[-1]
+    what = f"the same band within {large['triangles']:,} triangles, relative to within {small['triangles']:,}"
     value = large.seconds / small.seconds
     met = value <= 1.2 and small["same"] and large["same"]
-    yield bar(what, number(value) + sameness(small, large), "at most 1.2, same bytes", met)
+    yield target(what, number(value) + sameness(small, large), "at most 1.2, same bytes", met)
 
 
-def surface_bar(real):
+def surface_target(real):
     found = real["surface"]
-    what = (
-        f"`Surface` from arrays, {found['triangles']:,} triangles, against NumPy {found['numpy']} argsort of its keys"
-    )
+    what = f"`Surface` from arrays, {found['triangles']:,} triangles, "
+    what += f"relative to NumPy {found['numpy']} argsort of its keys"
     note = f" ({ms(found['seconds'])} to {ms(found['argsort_seconds'])} ms)"
     yield at_most(what, found["ratio"], 1.5, note)
 
 
-def cut_bars(real):
+def cut_targets(real):
     for name, found in real["minimum_cut"].items():
         what = (
-            f"the whole call, k = 0, against the minimum cut of the same band, median over {found['contours']} "
+            f"the whole call, k = 0, relative to the minimum cut of the same band, median over {found['contours']} "
             f"contours of {name}, {found['faces']:,.0f} faces in the median"
         )
         yield at_most(what, found["ratio"], 1, f" ({ms(found['seconds'])} to {ms(found['cut_seconds'])} ms)")
 
 
-def memory_bar(runs):
+def memory_target(runs):
     found = runs.of("memory", k=2)
-    peaks = [run["bytes_an_arc"] for run in found]
+    peaks = [run["bytes_per_arc"] for run in found]
     faces = ", ".join(f"{run['faces']:,.0f}" for run in found)
-    what = f"peak memory of a call, k = 2, bytes an arc, bands of {faces} faces"
-    yield bar(what, joined(peaks), "at most 64", max(peaks) <= 64)
+    what = f"peak memory of a call, k = 2, bytes per arc, bands of {faces} faces"
+    yield target(what, joined(peaks), "at most 64", max(peaks) <= 64)
 
 
-def threads_bar(runs):
+def threads_target(runs):
     one, two = (runs.one("optimize_all", threads=threads) for threads in (1, 2))
     value = one.real_seconds / two.real_seconds
     met = value >= 1.7 and one["same"] and two["same"]
-    what = "two threads against one, 16 contours"
-    yield bar(what, number(value) + sameness(one, two), "at least 1.7 times, same bytes", met)
+    what = "two threads relative to one, 16 contours"
+    yield target(what, number(value) + sameness(one, two), "at least 1.7 times, same bytes", met)
 
 
-def bias_bars(real):
+def bias_targets(real):
     for name, found in real["length_bias"].items():
         what = (
             f"length bias, k = 0, {found['contours']} contours of {name}: gap below 1e-9 of the objective; "
-            "time against the plain ratio's, median"
+            "time relative to the plain ratio, median"
         )
         measured = (
             f"{100 * found['closed']:.1f} %; stage {number(found['stage'])}, whole call {number(found['call'])} times"
         )
         met = found["closed"] >= 0.99 and max(found["stage"], found["call"]) <= 6
-        yield bar(what, measured, "at least 99 %, at most 6 times", met)
+        yield target(what, measured, "at least 99 %, at most 6 times", met)
 
 
-def bars(runs, real):
-    rows = [*passes_bars(real), *large_passes_bar(runs), *solver_bars(runs), *growth_bars(runs), *beside_bar(runs)]
-    rows += [*surface_bar(real), *cut_bars(real), *memory_bar(runs), *threads_bar(runs), *bias_bars(real)]
-    return markdown(["what", "measured", "bar", ""], rows)
+def targets(runs, real):
+    rows = [
+        *passes_targets(real),
+        *large_passes_target(runs),
+        *solver_targets(runs),
+        *growth_targets(runs),
+        *mesh_size_target(runs),
+    ]
+    rows += [
+        *surface_target(real),
+        *cut_targets(real),
+        *memory_target(runs),
+        *threads_target(runs),
+        *bias_targets(real),
+    ]
+    return markdown(["what", "measured", "target", ""], rows)
 
 
 def stage_rows(runs):
@@ -223,11 +238,11 @@ def growth_rows(runs):
 def memory_rows(runs):
     for run in runs.of("memory"):
         counts = [f"{run.counters[name]:,.0f}" for name in ("faces", "arcs")]
-        yield [counts[0], run["k"], counts[1], number(run["bytes"] / 1e6), number(run["bytes_an_arc"])]
+        yield [counts[0], run["k"], counts[1], number(run["bytes"] / 1e6), number(run["bytes_per_arc"])]
 
 
 def mesh_rows(runs):
-    for run in runs.of("optimize_beside"):
+    for run in runs.of("optimize_in_mesh"):
         surface = runs.one("surface", **run.arguments)
         yield [f"{run['triangles']:,}", ms(surface.seconds) if surface else "", ms(run.seconds)]
 
@@ -251,38 +266,38 @@ def thesis_rows(real):
 
 
 def sections(runs, real):
-    yield "Bars", "", bars(runs, real)
+    yield "Targets", "", targets(runs, real)
     columns = ["faces", "k", "arcs", "passes", *STAGES, "call"]
     yield "Stages of one call on tubes", "Milliseconds.", markdown(columns, stage_rows(runs))
-    note = "Milliseconds, the medians over contours of libcgal-demo's meshes."
+    note = "Milliseconds, medians over contours on the meshes of libcgal-demo."
     yield "Stages of one call on real meshes", note, markdown(columns, real_stage_rows(real))
-    note = (
-        "Slopes of the logarithm of each stage's time over that of the faces; the last, of the time per arc and pass."
-    )
+    note = "Log-log slopes of the time of each stage, and of the time per arc and pass, as a function of the number of faces."
     yield "How cost grows", note, markdown(["k", *STAGES, "call", "per arc and pass"], growth_rows(runs))
-    note = "Milliseconds on the same graph, and passes over it."
+    note = "Milliseconds on the same graph, and the number of passes in parentheses."
     columns = ["faces", "k", "nodes", "arcs", "bare pass", "`ratio`", "one lambda, no bounds", "the thesis's search"]
-    yield "The solver beside its baselines", note, markdown(columns, baseline_rows(runs))
-    note = "Milliseconds, every arc counting 1."
-    yield "The solver by counts", note, markdown(["faces", "nodes", "`ratio`", "Karp"], karp_rows(runs))
-    note = "Milliseconds of `Surface` for so many triangles, and of a call with k = 0 and 1,000 faces in such a mesh."
-    yield "Meshes of different sizes", note, markdown(["triangles", "`Surface`", "call"], mesh_rows(runs))
-    yield "Peak memory of a call", "", markdown(["faces", "k", "arcs", "megabytes", "bytes an arc"], memory_rows(runs))
+    yield "The solver compared with its baselines", note, markdown(columns, baseline_rows(runs))
+    note = "Milliseconds; every arc counts 1."
+    yield "The solver with counts", note, markdown(["faces", "nodes", "`ratio`", "Karp"], karp_rows(runs))
     note = (
-        "The thesis's figures (2006, 2.80 GHz) / ours, of one iteration, for the real contour whose band of the same "
-        "width has most nearly as many faces. Milliseconds; before: all stages before the minimum ratio, "
+        "Milliseconds for `Surface` with this many triangles, and for a call with k = 0 and 1,000 faces in such a mesh."
+    )
+    yield "Meshes of different sizes", note, markdown(["triangles", "`Surface`", "call"], mesh_rows(runs))
+    yield "Peak memory of a call", "", markdown(["faces", "k", "arcs", "megabytes", "bytes per arc"], memory_rows(runs))
+    note = (
+        "Figures of the thesis (2006, 2.80 GHz) / ours, for one iteration on the real contour whose band of the same "
+        "width has the closest number of faces. Milliseconds; before: all stages before the minimum ratio, "
         "curvature included."
     )
     columns = ["mesh", "k", "width", "faces", "cut", "nodes", "arcs", "linear steps", "before", "ratio", "iteration"]
-    yield "Beside tables 5.1 and 5.2", note, markdown(columns, thesis_rows(real))
+    yield "Comparison with tables 5.1 and 5.2", note, markdown(columns, thesis_rows(real))
 
 
 def document(runs, real, quick):
     context = runs.context
     yield "# Benchmarks"
-    about = f"`native/bench/run` wrote this; {context['num_cpus']} processors of {context['mhz_per_cpu']:,} MHz. "
-    about += "Each ratio is taken in one run; times are medians, of processor time where one thread works. "
-    about += "What they mean is explained [at the end](#what-the-figures-mean)."
+    about = f"Written by `native/bench/run` on {context['num_cpus']} processors of {context['mhz_per_cpu']:,} MHz. "
+    about += "Each ratio is measured in one run. Times are medians, and processor times if only one thread works. "
+    about += "Their meaning is explained [at the end](#what-the-figures-mean)."
     if quick:
         about += " **A smoke run with `--quick`: its figures mean nothing.**"
     yield about
@@ -301,13 +316,15 @@ def explanations():
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--benchmarks", type=Path, nargs="+", required=True, help="JSON of the C++ programs")
-    parser.add_argument("--real", type=Path, required=True, help="JSON of real_bench.py")
+    parser.add_argument(
+        "--benchmarks", type=Path, nargs="+", required=True, help="JSON files written by the C++ programs"
+    )
+    parser.add_argument("--real", type=Path, required=True, help="JSON file written by real_bench.py")
     parser.add_argument("--output", type=Path, required=True)
     parser.add_argument("--quick", action="store_true")
     arguments = parser.parse_args()
     parts = document(Runs(*arguments.benchmarks), json.loads(arguments.real.read_text()), arguments.quick)
-    text = "\n\n".join(parts) + "\n"  # before the file is opened: its end is kept
+    text = "\n\n".join(parts) + "\n"  # before the file is overwritten, whose end is kept
     arguments.output.write_text(text, encoding="utf-8")
 
 

@@ -16,7 +16,7 @@ constexpr int most_faces = 200;
 
 enum class Shape { tube, torus, ball, plane, twisted, kMaxValue = twisted };
 
-/// Rows of vertices and the quads between them; row and column of the last quads lead back to the first where they wrap.
+/// Rows of vertices and the quads between them; where rows or columns wrap, the last quads lead back to the first.
 struct Grid {
     int rows, columns;
     bool wrap_rows, wrap_columns, twist;
@@ -47,14 +47,14 @@ Vec3 place(Shape shape, double row, double column, double radius) {
     return {4.0 * column, 4.0 * row, radius};
 }
 
-MadeMesh grid_mesh(FuzzedDataProvider& data) {
+GeneratedMesh grid_mesh(FuzzedDataProvider& data) {
     const auto shape = data.ConsumeEnum<Shape>();
     const bool wrap_columns = shape != Shape::plane, wrap_rows = shape == Shape::torus;
-    const int quads = data.PickValueInArray({24, 24, 48, 48, 96, 180});  // small ones break as well, and sooner
+    const int quads = data.PickValueInArray({24, 24, 48, 48, 96, 180});  // small meshes fail just as well, and faster
     const int columns = data.ConsumeIntegralInRange(3, std::min(16, quads / 4));
     const int rows = data.ConsumeIntegralInRange(2, quads / columns);
     const Grid grid{rows, columns, wrap_rows, wrap_columns, shape == Shape::twisted};
-    MadeMesh mesh;
+    GeneratedMesh mesh;
     std::mt19937 random(data.ConsumeIntegral<uint16_t>());
     const double noise = data.ConsumeIntegralInRange(0, 40) * 0.01;
     const double size = std::pow(10.0, data.ConsumeIntegralInRange(-49, 49));
@@ -71,7 +71,7 @@ MadeMesh grid_mesh(FuzzedDataProvider& data) {
             mesh.faces.push_back({grid.vertex(i, j), grid.vertex(i, j + 1), grid.vertex(i + 1, j + 1), grid.vertex(i + 1, j)});
         }
     }
-    if (shape == Shape::ball) {  // its poles are polygons
+    if (shape == Shape::ball) {  // the poles are polygons
         for (const int row : {0, rows - 1}) {
             std::vector<int>& pole = mesh.faces.emplace_back();
             for (int j = 0; j < columns; ++j) pole.push_back(grid.vertex(row, row == 0 ? columns - 1 - j : j));
@@ -80,23 +80,23 @@ MadeMesh grid_mesh(FuzzedDataProvider& data) {
     return mesh;
 }
 
-void cut_up(MadeMesh& mesh, int face) {
+void triangulate(GeneratedMesh& mesh, int face) {
     const std::vector<int> polygon = mesh.faces[face];
     if (polygon.size() < 4) return;
     mesh.faces[face] = {polygon[0], polygon[1], polygon[2]};
     for (std::size_t i = 3; i < polygon.size(); ++i) mesh.faces.push_back({polygon[0], polygon[i - 1], polygon[i]});
 }
 
-/// What modelers, exporters and scanners do to meshes.
-void spoil(MadeMesh& mesh, FuzzedDataProvider& data) {
-    enum class Change { cut_up, cut_up_all, remove, flip, duplicate, hide, move_onto, lift, kMaxValue = lift };
+/// Damages a mesh in one of the ways that modeling programs, exporters and scanners do.
+void damage(GeneratedMesh& mesh, FuzzedDataProvider& data) {
+    enum class Change { triangulate, triangulate_all, remove, flip, duplicate, hide, move_onto, lift, kMaxValue = lift };
     const int face = data.ConsumeIntegralInRange(0, static_cast<int>(mesh.faces.size()) - 1);
     const int vertex = data.ConsumeIntegralInRange(0, static_cast<int>(mesh.positions.size()) - 1);
     switch (data.ConsumeEnum<Change>()) {
-        case Change::cut_up:
-            return cut_up(mesh, face);
-        case Change::cut_up_all:
-            for (int f = 0, count = static_cast<int>(mesh.faces.size()); f < count; ++f) cut_up(mesh, f);
+        case Change::triangulate:
+            return triangulate(mesh, face);
+        case Change::triangulate_all:
+            for (int f = 0, count = static_cast<int>(mesh.faces.size()); f < count; ++f) triangulate(mesh, f);
             return;
         case Change::remove:
             if (mesh.faces.size() > 1) mesh.faces.erase(mesh.faces.begin() + face);
@@ -128,8 +128,8 @@ std::set<Step> steps_of(const std::vector<int>& polygon) {
     return steps;
 }
 
-/// The first so many faces, by their numbers or by their way from a face.
-std::vector<int> some_faces(const MadeMesh& mesh, FuzzedDataProvider& data) {
+/// The first few faces in the order of their numbers, or of their distance from a random face.
+std::vector<int> some_faces(const GeneratedMesh& mesh, FuzzedDataProvider& data) {
     const int total = static_cast<int>(mesh.faces.size());
     const int count = data.ConsumeIntegralInRange(1, total);
     std::vector<int> order;
@@ -154,7 +154,7 @@ std::vector<int> some_faces(const MadeMesh& mesh, FuzzedDataProvider& data) {
 
 }  // namespace
 
-Surface MadeMesh::surface() const {
+Surface GeneratedMesh::surface() const {
     std::vector<double> points;
     for (const Vec3& p : positions) points.insert(points.end(), p.begin(), p.end());
     std::vector<int32_t> offsets{0}, vertices;
@@ -169,14 +169,14 @@ Surface MadeMesh::surface() const {
     return Surface({points, offsets, vertices, {}, unseen});
 }
 
-MadeMesh made_mesh(FuzzedDataProvider& data) {
-    MadeMesh mesh = grid_mesh(data);
-    for (int i = data.ConsumeIntegralInRange(0, 12); i > 0; --i) spoil(mesh, data);
+GeneratedMesh generate_mesh(FuzzedDataProvider& data) {
+    GeneratedMesh mesh = grid_mesh(data);
+    for (int i = data.ConsumeIntegralInRange(0, 12); i > 0; --i) damage(mesh, data);
     if (static_cast<int>(mesh.faces.size()) > most_faces) mesh.faces.resize(most_faces);
     return mesh;
 }
 
-std::vector<std::vector<int>> made_loops(const MadeMesh& mesh, FuzzedDataProvider& data) {
+std::vector<std::vector<int>> generate_loops(const GeneratedMesh& mesh, FuzzedDataProvider& data) {
     std::set<Step> all;
     for (const int face : some_faces(mesh, data)) {
         const std::set<Step> steps = steps_of(mesh.faces[face]);

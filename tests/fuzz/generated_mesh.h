@@ -9,8 +9,8 @@
 
 namespace mrc {
 
-/// A mesh of at most 200 faces as the fuzzer's bytes want it: a tube, torus, ball, plane or strip with a twist, then spoilt face by face.
-struct MadeMesh {
+/// A mesh of at most 200 faces determined by the fuzzer's bytes: a tube, torus, ball, plane or twisted strip, with random damage.
+struct GeneratedMesh {
     std::vector<Vec3> positions;
     std::vector<std::vector<int>> faces;
     std::vector<int> hidden;
@@ -18,9 +18,9 @@ struct MadeMesh {
     Surface surface() const;
 };
 
-MadeMesh made_mesh(FuzzedDataProvider& data);
+GeneratedMesh generate_mesh(FuzzedDataProvider& data);
 
-/// Loops of vertices around a set of faces, that lie together in the mesh or in its list: what a user may have selected.
-std::vector<std::vector<int>> made_loops(const MadeMesh& mesh, FuzzedDataProvider& data);
+/// Vertex loops around a set of faces that are adjacent or have consecutive numbers, such as a user might select.
+std::vector<std::vector<int>> generate_loops(const GeneratedMesh& mesh, FuzzedDataProvider& data);
 
 }  // namespace mrc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Contours of all kinds on spoilt meshes, with any options: a valid result, or an error.
+/// Contours of all kinds on damaged meshes with any options give a valid result or an error.
 #include "checks.h"
 #include "generated_mesh.h"
 
@@ -19,8 +19,8 @@ std::optional<Value> maybe(FuzzedDataProvider& data, Value value) {
 
 double between(FuzzedDataProvider& data, double low, double high) { return data.ConsumeFloatingPointInRange(low, high); }
 
-/// Any options; those that take long come less often, so that more is tried.
-Options made_options(FuzzedDataProvider& data) {
+/// Any options; slow ones are less frequent, so that more inputs are tried.
+Options generate_options(FuzzedDataProvider& data) {
     Options o;
     o.width = maybe(data, data.ConsumeIntegralInRange(1, 8));
     o.refinement = data.PickValueInArray({0, 0, 0, 1, 2});
@@ -52,13 +52,14 @@ Options made_options(FuzzedDataProvider& data) {
     return o;
 }
 
-std::array<int, 2> edge(FuzzedDataProvider& data, const mrc::MadeMesh& mesh) {
+std::array<int, 2> edge(FuzzedDataProvider& data, const mrc::GeneratedMesh& mesh) {
     const std::vector<int>& face = mesh.faces[data.ConsumeIntegralInRange(0, static_cast<int>(mesh.faces.size()) - 1)];
     const std::size_t corner = data.ConsumeIntegralInRange<std::size_t>(0, face.size() - 1);
     return {face[corner], face[(corner + 1) % face.size()]};
 }
 
-mrc::Constraints made_wishes(FuzzedDataProvider& data, const mrc::MadeMesh& mesh, const std::vector<double>& density) {
+mrc::Constraints generate_constraints(FuzzedDataProvider& data, const mrc::GeneratedMesh& mesh,
+                                      const std::vector<double>& density) {
     mrc::Constraints constraints;
     const int last = static_cast<int>(mesh.positions.size()) - 1;
     const auto some = [&](auto add) {
@@ -75,10 +76,10 @@ mrc::Constraints made_wishes(FuzzedDataProvider& data, const mrc::MadeMesh& mesh
     return constraints;
 }
 
-/// Loops and chains; sometimes a walk that is none.
-std::vector<Contour> made_contours(FuzzedDataProvider& data, const mrc::MadeMesh& mesh) {
+/// Loops and chains; sometimes a list of vertices that is neither.
+std::vector<Contour> generate_contours(FuzzedDataProvider& data, const mrc::GeneratedMesh& mesh) {
     std::vector<Contour> contours;
-    for (std::vector<int>& loop : made_loops(mesh, data)) {
+    for (std::vector<int>& loop : generate_loops(mesh, data)) {
         const bool closed = data.ConsumeIntegralInRange(0, 3) != 3;
         if (!closed) {
             loop.resize(data.ConsumeIntegralInRange<std::size_t>(std::min<std::size_t>(2, loop.size()), loop.size()));
@@ -91,25 +92,25 @@ std::vector<Contour> made_contours(FuzzedDataProvider& data, const mrc::MadeMesh
     return contours;
 }
 
-/// Leaves a search after so many calls; 0: never.
-mrc::Progress made_progress(int calls) {
+/// Cancels a search after this many calls; 0: never.
+mrc::Progress generate_progress(int calls) {
     if (calls == 0) return {};
-    return [calls, share = 0.0](double now) mutable {
-        mrc::require(now >= share && now <= 1.0, "progress goes on, up to 1");
-        share = now;
+    return [calls, last = 0.0](double now) mutable {
+        mrc::require(now >= last && now <= 1.0, "progress rises, up to 1");
+        last = now;
         return --calls > 0;
     };
 }
 
 void run(FuzzedDataProvider& data) {
-    const mrc::MadeMesh mesh = mrc::made_mesh(data);
+    const mrc::GeneratedMesh mesh = mrc::generate_mesh(data);
     const Surface surface = mesh.surface();
     mrc::check_surface(surface);
     std::vector<double> density(mesh.faces.size());
     for (std::size_t f = 0; f < density.size(); ++f) density[f] = static_cast<double>(f % 5) - 2.0;
-    const Options options = made_options(data);
-    const mrc::Constraints constraints = made_wishes(data, mesh, density);
-    std::vector<Contour> contours = made_contours(data, mesh);
+    const Options options = generate_options(data);
+    const mrc::Constraints constraints = generate_constraints(data, mesh, density);
+    std::vector<Contour> contours = generate_contours(data, mesh);
     if (contours.empty()) return;
     if (!contours[0].closed && data.ConsumeBool()) {
         contours[0] = mrc::close_contour(surface, contours[0]);
@@ -119,7 +120,7 @@ void run(FuzzedDataProvider& data) {
     std::vector<Task> tasks;
     for (const Contour& contour : contours)
         tasks.push_back({contour, tasks.empty() ? constraints : mrc::Constraints{}, std::nullopt});
-    const auto results = mrc::optimize_all(surface, tasks, options, made_progress(data.ConsumeIntegralInRange(0, 40)));
+    const auto results = mrc::optimize_all(surface, tasks, options, generate_progress(data.ConsumeIntegralInRange(0, 40)));
     mrc::require(results.size() == tasks.size(), "each contour has its result");
     for (std::size_t i = 0; i < results.size(); ++i) {
         mrc::check_result(surface, tasks[i].contour, options, tasks[i].constraints, results[i]);
@@ -129,7 +130,7 @@ void run(FuzzedDataProvider& data) {
         }
     }
     if (data.ConsumeIntegralInRange(0, 3) != 0) return;
-    // What came out goes in again, across faces too.
+    // The result can be given again, even if it runs across faces.
     const mrc::Result again = mrc::optimize(surface, results[0].contour, options, tasks[0].constraints);
     mrc::check_result(surface, results[0].contour, options, tasks[0].constraints, again);
 }
@@ -140,7 +141,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, std::size_t size) {
     FuzzedDataProvider data(bytes, size);
     try {
         run(data);
-    } catch (const mrc::InvalidInput&) {  // which is the answer to bad input
+    } catch (const mrc::InvalidInput&) {  // the right response to bad input
     }
     return 0;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Arrays of any content make a surface that agrees with itself, or an error.
+/// Arrays with any content give a consistent surface or an error.
 #include "checks.h"
 
 #include <fuzzer/FuzzedDataProvider.h>
@@ -12,7 +12,7 @@ std::vector<int32_t> indices(FuzzedDataProvider& data, int most) {
     return values;
 }
 
-/// Faces of a few corners, now and then of none, so that some inputs are meshes.
+/// Faces with a few corners, so that some inputs are meshes.
 void faces(FuzzedDataProvider& data, std::vector<int32_t>& offsets, std::vector<int32_t>& vertices) {
     const int count = data.ConsumeIntegralInRange(0, 200), last = data.ConsumeIntegralInRange(0, 120);
     offsets.push_back(0);
@@ -43,7 +43,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, std::size_t size) {
         const mrc::Surface surface({positions, offsets, vertices, triangles, hidden});
         mrc::check_surface(surface);
         for (int v = 0; v < surface.vertex_count(); ++v) mrc::require(surface.average_radius(v) >= 0.0, "radii are not negative");
-    } catch (const mrc::InvalidInput&) {  // which is the answer to bad input
+    } catch (const mrc::InvalidInput&) {  // the right response to bad input
     }
     return 0;
 }
