@@ -271,7 +271,7 @@ def sections(runs, real):
     yield "Stages of one call on tubes", "Milliseconds.", markdown(columns, stage_rows(runs))
     note = "Milliseconds, medians over contours on the meshes of libcgal-demo."
     yield "Stages of one call on real meshes", note, markdown(columns, real_stage_rows(real))
-    note = "Log-log slopes of the time of each stage, and of the time per arc and pass, as a function of the number of faces."
+    note = "Log-log slopes, over the number of faces, of the time of each stage and of the time per arc and pass."
     yield "How cost grows", note, markdown(["k", *STAGES, "call", "per arc and pass"], growth_rows(runs))
     note = "Milliseconds on the same graph, and the number of passes in parentheses."
     columns = ["faces", "k", "nodes", "arcs", "bare pass", "`ratio`", "one lambda, no bounds", "the thesis's search"]
