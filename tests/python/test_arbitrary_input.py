@@ -33,7 +33,7 @@ RING = np.arange(18, 24, dtype=np.int32)
 POINTS = np.column_stack([RING, RING])
 
 
-def result_or_none(call):
+def allowed(call):
     """The result of a call, or None if it refuses its input with a message."""
     try:
         return call()
@@ -145,9 +145,9 @@ edges = st.one_of(anything, st.lists(st.tuples(st.integers(-1, 45), st.integers(
 def test_arbitrary_surface_arrays(name, value):
     names = ("positions", "face_offsets", "face_vertices", "triangles")
     parts = {**dict(zip(names, MESH.arguments(), strict=True)), name: value}
-    surface = result_or_none(lambda: mrc.Surface(**parts))
+    surface = allowed(lambda: mrc.Surface(**parts))
     if surface is not None:
-        found = result_or_none(lambda: mrc.optimize(surface, RING))
+        found = allowed(lambda: mrc.optimize(surface, RING))
         if found is not None:
             check_numbers(found)
 
@@ -168,13 +168,13 @@ def test_memory_layout_of_arrays_does_not_matter(layouts, wide):
     positions=arrays.arrays(np.float64, (8, 3), elements=st.floats(allow_nan=False, allow_infinity=False)),
     faces=st.lists(st.lists(st.integers(0, 7), min_size=3, max_size=4, unique=True), min_size=1, max_size=9),
 )
-def test_arbitrary_positions(positions, faces):
-    """Positions may be very large, very small or flat."""
+def test_any_positions(positions, faces):
+    """However large, small or flat."""
     offsets = np.cumsum([0] + [len(face) for face in faces])
-    surface = result_or_none(lambda: mrc.Surface(positions, offsets, np.concatenate(faces)))
+    surface = allowed(lambda: mrc.Surface(positions, offsets, np.concatenate(faces)))
     if surface is not None:
-        found = result_or_none(lambda: mrc.optimize(surface, faces[0], options=mrc.Options(refinement=1)))
-        curvature = result_or_none(lambda: mrc.curvature(surface, mrc.Options()))
+        found = allowed(lambda: mrc.optimize(surface, faces[0], options=mrc.Options(refinement=1)))
+        curvature = allowed(lambda: mrc.curvature(surface, mrc.Options()))
         assert found is None or check_numbers(found) is None
         assert curvature is None or np.isfinite(curvature.direction_min).all()
 
@@ -187,9 +187,9 @@ def test_arbitrary_positions(positions, faces):
 def test_arbitrary_contours(value, closed, at):
     function = (mrc.optimize, mrc.measure, mrc.band, mrc.search_space)[at % 4]
     if at == 4:
-        result_or_none(lambda: mrc.close_contour(SURFACE, value))
+        allowed(lambda: mrc.close_contour(SURFACE, value))
     else:
-        result_or_none(lambda: function(SURFACE, value, closed, options=mrc.Options(width=2)))
+        allowed(lambda: function(SURFACE, value, closed, options=mrc.Options(width=2)))
 
 
 @examples(300)
@@ -199,9 +199,9 @@ def test_arbitrary_contours(value, closed, at):
 def test_arbitrary_points_on_edges(ends, parameters, k):
     options = mrc.Options(width=2, refinement=k)
     contour = {"edge_vertices": ends, "edge_parameters": parameters}
-    result = result_or_none(lambda: mrc.optimize(SURFACE, **contour, options=options))
+    result = allowed(lambda: mrc.optimize(SURFACE, **contour, options=options))
     check_found(result, options)
-    result_or_none(lambda: mrc.measure(SURFACE, **contour, options=options))
+    allowed(lambda: mrc.measure(SURFACE, **contour, options=options))
 
 
 # ---- options
@@ -214,16 +214,16 @@ values = st.one_of(anything, st.floats(0, 3), st.floats(0), st.integers(0, 4), s
 @examples(500)
 @given(chosen=st.dictionaries(st.sampled_from(NAMES), values, min_size=1, max_size=3))
 def test_arbitrary_option_values(chosen):
-    options = result_or_none(lambda: mrc.Options(**chosen))
+    options = allowed(lambda: mrc.Options(**chosen))
     if options is not None and (options.refinement < 4 or options.refinement > 10_000):
-        result = result_or_none(lambda: mrc.optimize(SURFACE, RING, options=options))
+        result = allowed(lambda: mrc.optimize(SURFACE, RING, options=options))
         check_found(result, options)
 
 
 @examples(100)
 @given(name=st.text(max_size=12), value=scalars)
 def test_arbitrary_option_names(name, value):
-    result_or_none(lambda: mrc.Options(**{name: value}))
+    allowed(lambda: mrc.Options(**{name: value}))
 
 
 # ---- constraints, and several contours
@@ -246,7 +246,7 @@ constraints = st.sampled_from([*constraint_values]).flatmap(
 def test_arbitrary_constraints(constraint, weight):
     """With the largest weights, rounding decides what is better, so only finiteness is checked."""
     options = mrc.Options(width=2, region_weight=weight)
-    result = result_or_none(lambda: mrc.optimize(SURFACE, RING, options=options, **dict([constraint])))
+    result = allowed(lambda: mrc.optimize(SURFACE, RING, options=options, **dict([constraint])))
     if result is not None:
         (check_numbers if abs(weight) <= 1 else check_finite)(result)
 
@@ -259,7 +259,7 @@ def test_arbitrary_constraints(constraint, weight):
 )
 def test_arbitrary_lists_of_contours(contours, closed, constraint):
     more = {"closed": closed, "options": mrc.Options(width=2), **dict([constraint])}
-    results = result_or_none(lambda: mrc.optimize_all(SURFACE, contours, **more))
+    results = allowed(lambda: mrc.optimize_all(SURFACE, contours, **more))
     for result in results or ():
         check_numbers(result)
 
@@ -268,6 +268,6 @@ def test_arbitrary_lists_of_contours(contours, closed, constraint):
 @given(answer=anything)
 def test_arbitrary_return_values_of_progress(answer):
     """The return value is converted to a bool; if that fails, as for an array, it is an error."""
-    result = result_or_none(lambda: mrc.optimize(SURFACE, RING, progress=lambda share: answer))
+    result = allowed(lambda: mrc.optimize(SURFACE, RING, progress=lambda share: answer))
     if result is not None:
         check_numbers(result)
