@@ -100,9 +100,9 @@ def _library_files(wheel):
     licenses."""
     with ZipFile(wheel) as content:
         names = [name for name in content.namelist() if not name.endswith("/")]
-        beside = {name: name for name in names if name.startswith(("mrcontour.", ".dylibs/"))}
+        module_files = {name: name for name in names if name.startswith(("mrcontour.", ".dylibs/"))}
         licenses = {name.rpartition("/")[2]: name for name in names if "/licenses/" in name}
-        return {target: content.read(name) for target, name in (beside | licenses).items()}
+        return {target: content.read(name) for target, name in (module_files | licenses).items()}
 
 
 def _epoch():

@@ -142,8 +142,8 @@ std::vector<int> some_faces(const GeneratedMesh& mesh, FuzzedDataProvider& data)
     for (std::size_t i = 0; i < order.size() && static_cast<int>(order.size()) < count; ++i) {
         const std::set<Step> here = steps_of(mesh.faces[order[i]]);
         for (int f = 0; f < total && static_cast<int>(order.size()) < count; ++f) {
-            const auto beside = [&](const Step& step) { return here.contains({step.second, step.first}); };
-            if (!seen.contains(f) && std::ranges::any_of(steps_of(mesh.faces[f]), beside)) {
+            const auto adjacent = [&](const Step& step) { return here.contains({step.second, step.first}); };
+            if (!seen.contains(f) && std::ranges::any_of(steps_of(mesh.faces[f]), adjacent)) {
                 seen.insert(f);
                 order.push_back(f);
             }

@@ -188,7 +188,7 @@ class Geometry:
         the vertex."""
         center = self.x[v]
         start, end = line_in_ball(*(self.x[self.edge_ends] - center).transpose(1, 0, 2), radius)
-        shares = dict(zip(self.at_edge, (end - start).tolist(), strict=True))
+        fractions = dict(zip(self.at_edge, (end - start).tolist(), strict=True))
         seen, stack, met = set(self.at_vertex[v]), list(self.at_vertex[v]), {}
         while stack:
             a, b, c = self.triangles[stack.pop()]
@@ -196,16 +196,16 @@ class Geometry:
                 edge = tuple(sorted(edge))
                 if edge in met:
                     continue
-                met[edge] = shares[edge]
+                met[edge] = fractions[edge]
                 if met[edge] > 0:
                     fresh = [i for i, _ in self.at_edge[edge] if i not in seen]
                     seen.update(fresh)
                     stack += fresh
         tensor = np.zeros((3, 3))
-        for edge, share in met.items():
+        for edge, fraction in met.items():
             d = self.x[edge[1]] - self.x[edge[0]]
-            if share > 0 and d.any():
-                tensor += self.bend[edge] * share * np.outer(d, d) / np.linalg.norm(d)
+            if fraction > 0 and d.any():
+                tensor += self.bend[edge] * fraction * np.outer(d, d) / np.linalg.norm(d)
         corners = self.x[np.array([self.triangles[i] for i in sorted(seen)])] - center if seen else np.zeros((0, 3, 3))
         area = area_in_ball(corners, radius).sum()
         return tensor / area if area > 0 else tensor * 0.0

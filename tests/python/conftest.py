@@ -23,7 +23,7 @@ def realistic_contours():
         "peanut": meshes.peanut(rng, 3),
         "bumpy": bumpy,
         "bent": meshes.bent_tube(rng),
-        "grooved": meshes.torus(20, 64, rng=rng, split_share=0.7, noise=0.02, grooves=0.3),
+        "grooved": meshes.torus(20, 64, rng=rng, split_fraction=0.7, noise=0.02, grooves=0.3),
         "finger": meshes.finger(rng)[0],
     }
     normals = {"peanut": [0, 0, 1], "bumpy": [0, 0, 1], "bent": [-1, 1, 0], "grooved": [0, 1, 0], "finger": [0, 0, 1]}

@@ -43,10 +43,10 @@ def chords_meet(one, two, triangle):
 
 def flat(point, triangle):
     """Integer coordinates in the plane of a triangle."""
-    share = dict.fromkeys(triangle, 0)
-    share[point[0]] += UNITS - point[2]
-    share[point[1]] += point[2]
-    return share[triangle[1]], share[triangle[2]]
+    weights = dict.fromkeys(triangle, 0)
+    weights[point[0]] += UNITS - point[2]
+    weights[point[1]] += point[2]
+    return weights[triangle[1]], weights[triangle[2]]
 
 
 def turn(a, b, c):
@@ -69,7 +69,7 @@ def segments_meet(a, b, c, d, shared):
 
 
 def meetings(mesh, one, two, closed=(True, True)):
-    """Points that two contours share, and pairs of their chords that cross or touch elsewhere."""
+    """Points that two contours weights, and pairs of their chords that cross or touch elsewhere."""
     found = sorted(set(one) & set(two))
     first, second = (chords_by_triangle(mesh, *pair) for pair in zip((one, two), closed, strict=True))
     for triangle in (first.keys() & second.keys()) - {None}:

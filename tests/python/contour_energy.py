@@ -88,12 +88,12 @@ class Enclosed:
     """
 
     def __init__(self, geometry, triangles, edges, density, given):
-        self.content = {frozenset(t): (t, share) for t, share in self.contents(geometry, triangles, density)}
+        self.content = {frozenset(t): (t, content) for t, content in self.contents(geometry, triangles, density)}
         self.number = {edge: i for i, edge in enumerate(dict.fromkeys(tuple(sorted(edge)) for edge in edges))}
         rows, held = [], []
-        for triangle, share in self.content.values():
+        for triangle, content in self.content.values():
             rows.append(self._row([(vertex(a), vertex(b)) for a, b in edges_of(triangle)]))
-            held.append(share)
+            held.append(content)
         rows.append(self._row(list(pairwise([*given, given[0]]))))
         held.append(0.0)
         self.form, *_ = np.linalg.lstsq(np.array(rows), np.array(held), rcond=None)
@@ -119,9 +119,9 @@ class Enclosed:
             row[self.number[edge]] += (parameter(q, *edge) - parameter(p, *edge)) / UNITS
         return row
 
-    def _from(self, corner, other, share):
+    def _from(self, corner, other, fraction):
         sign = 1 if corner < other else -1
-        return sign * share * self.form[self.number[tuple(sorted((corner, other)))]]
+        return sign * fraction * self.form[self.number[tuple(sorted((corner, other)))]]
 
     def along(self, p, q):
         """Along an edge the form is constant. A chord across a triangle cuts off a corner: by Stokes' theorem, its

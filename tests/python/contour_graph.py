@@ -334,15 +334,15 @@ class ContourGraph:
         """The number of contours, by dynamic programming."""
         order, total = self.order(), 0
         for start in self.sources if self.energy.closed else [None]:
-            ways = [0] * len(self.nodes)
+            path_counts = [0] * len(self.nodes)
             for s in [start] if self.energy.closed else self.first:
-                ways[s] = 1
+                path_counts[s] = 1
             for i in order:
                 if not self.energy.closed and i in self.last:
-                    total += ways[i]
-                for j, _, _ in self.arcs[i] if ways[i] else ():
+                    total += path_counts[i]
+                for j, _, _ in self.arcs[i] if path_counts[i] else ():
                     if self.energy.closed and j == start:
-                        total += ways[i]
+                        total += path_counts[i]
                     elif not self.energy.closed or j not in self.sources:
-                        ways[j] += ways[i]
+                        path_counts[j] += path_counts[i]
         return total

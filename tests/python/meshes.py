@@ -58,17 +58,17 @@ def random_flips(faces, rng):
     return rng.random(len(faces)) < 0.5
 
 
-def jittered_annulus(rng, rings, columns, split_share=1.0, height=0.4):
+def jittered_annulus(rng, rings, columns, split_fraction=1.0, height=0.4):
     """A flat ring of cells with jittered radii, angles and heights, open at both borders."""
     radius = 2.0 + np.arange(rings)[:, None] + rng.uniform(-0.25, 0.25, (rings, columns))
     angle = -2 * np.pi * (np.arange(columns)[None, :] + rng.uniform(-0.25, 0.25, (rings, columns))) / columns
     z = rng.uniform(-height, height, (rings, columns))
     positions = np.stack([radius * np.cos(angle), radius * np.sin(angle), z], axis=-1).reshape(-1, 3)
-    faces = split_quads(grid_faces(rings, columns), rng, split_share)
+    faces = split_quads(grid_faces(rings, columns), rng, split_fraction)
     return polygon_mesh(positions, faces, random_flips(faces, rng))
 
 
-def tube(radius, columns, step=1.0, split_share=0.0, rng=None, noise=0.0):
+def tube(radius, columns, step=1.0, split_fraction=0.0, rng=None, noise=0.0):
     """A tube of quads around the z axis with one radius for each ring, open at both ends."""
     rows = len(radius)
     rng = rng or np.random.default_rng(0)
@@ -76,7 +76,7 @@ def tube(radius, columns, step=1.0, split_share=0.0, rng=None, noise=0.0):
     circle = np.stack([np.cos(angle), np.sin(angle), np.zeros(columns)], axis=-1)
     positions = np.asarray(radius)[:, None, None] * circle + np.arange(rows)[:, None, None] * [0.0, 0.0, step]
     positions = positions.reshape(-1, 3) + noise * rng.standard_normal((rows * columns, 3))
-    faces = split_quads(grid_faces(rows, columns), rng, split_share)
+    faces = split_quads(grid_faces(rows, columns), rng, split_fraction)
     return polygon_mesh(positions, faces, random_flips(faces, rng))
 
 
@@ -101,7 +101,7 @@ def square_prism(side, rows):
     return polygon_mesh(np.concatenate(layers), grid_faces(rows, 4 * side))
 
 
-def torus(rows, columns, major=3.0, minor=1.0, rng=None, split_share=0.0, noise=0.0, grooves=0.0):
+def torus(rows, columns, major=3.0, minor=1.0, rng=None, split_fraction=0.0, noise=0.0, grooves=0.0):
     """A torus with `columns` along its length and `rows` around its section; grooves narrow it at three places."""
     rng = rng or np.random.default_rng(0)
     long, short = np.meshgrid(2 * np.pi * np.arange(columns) / columns, 2 * np.pi * np.arange(rows) / rows)
@@ -109,7 +109,7 @@ def torus(rows, columns, major=3.0, minor=1.0, rng=None, split_share=0.0, noise=
     ring = major + thickness * np.cos(short)
     positions = np.stack([ring * np.cos(long), ring * np.sin(long), thickness * np.sin(short)], axis=-1).reshape(-1, 3)
     positions = positions + noise * rng.standard_normal(positions.shape)
-    faces = split_quads(grid_faces(rows, columns, closed_rows=True), rng, split_share)
+    faces = split_quads(grid_faces(rows, columns, closed_rows=True), rng, split_fraction)
     return polygon_mesh(positions, faces, random_flips(faces, rng))
 
 

@@ -27,7 +27,7 @@ def seeds(count, in_full=200):
 def annulus(rng):
     """An annulus of triangles, quads or both."""
     rings, columns = int(rng.integers(3, 5)), int(rng.integers(4, 7))
-    mesh = meshes.jittered_annulus(rng, rings, columns, split_share=rng.choice([0.0, 0.5, 1.0]))
+    mesh = meshes.jittered_annulus(rng, rings, columns, split_fraction=rng.choice([0.0, 0.5, 1.0]))
     return mesh, meshes.zigzag_contour(rng, columns, 1, rings - 2)
 
 
@@ -42,7 +42,7 @@ def cylinder(rng):
 
 def torus(rng):
     rows, columns = int(rng.integers(4, 7)), int(rng.integers(4, 6))
-    mesh = meshes.torus(rows, columns, rng=rng, split_share=rng.choice([0.0, 0.5, 1.0]), noise=0.1)
+    mesh = meshes.torus(rows, columns, rng=rng, split_fraction=rng.choice([0.0, 0.5, 1.0]), noise=0.1)
     return mesh, meshes.zigzag_contour(rng, columns, 1, 2)
 
 
@@ -56,7 +56,7 @@ def chain(rng):
 def crossing_chain(rng):
     """A chain from border to border, or from a border to an inner vertex."""
     rows, columns = int(rng.integers(4, 6)), int(rng.integers(4, 7))
-    mesh = meshes.jittered_annulus(rng, rows, columns, split_share=rng.choice([0.0, 0.5, 1.0]))
+    mesh = meshes.jittered_annulus(rng, rows, columns, split_fraction=rng.choice([0.0, 0.5, 1.0]))
     column, path = int(rng.integers(columns)), []
     for row in range(rows):
         path.append(row * columns + column)

@@ -105,14 +105,14 @@ def edges_of(triangles):
 
 def simple_path(edges):
     """Follows edges from the first one, as long as they lead to new vertices."""
-    beside = {}
+    neighbors = {}
     for a, b in edges.tolist():
-        beside.setdefault(a, []).append(b)
-        beside.setdefault(b, []).append(a)
+        neighbors.setdefault(a, []).append(b)
+        neighbors.setdefault(b, []).append(a)
     path = [int(edges[0, 0])]
     seen = set(path)
     while len(path) < LONGEST:
-        following = next((v for v in beside[path[-1]] if v not in seen), None)
+        following = next((v for v in neighbors[path[-1]] if v not in seen), None)
         if following is None:
             break
         path.append(following)

@@ -49,8 +49,8 @@ def bodies(rng):
     rows = np.arange(18)
     return [
         meshes.icosphere(3),
-        meshes.torus(14, 30, rng=rng, split_share=0.5, noise=0.03, grooves=0.4),
-        meshes.tube(1 - 0.3 * np.exp(-((rows - 9) ** 2) / 2.0), 20, step=0.3, rng=rng, split_share=0.5),
+        meshes.torus(14, 30, rng=rng, split_fraction=0.5, noise=0.03, grooves=0.4),
+        meshes.tube(1 - 0.3 * np.exp(-((rows - 9) ** 2) / 2.0), 20, step=0.3, rng=rng, split_fraction=0.5),
         meshes.polygon_mesh(*open_sheet(12, 16)),
     ]
 

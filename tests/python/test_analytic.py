@@ -15,7 +15,7 @@ def revolved(radius, half, edge, rng, mean_radius=1.0):
     radius is a function of height and angle. Also returns a zigzag contour at about a given height."""
     step, columns = 0.8 * edge, round(2 * np.pi * mean_radius / edge)
     rows = round(2 * half / step)
-    mesh = meshes.tube(np.ones(rows), columns, split_share=1.0, rng=rng)
+    mesh = meshes.tube(np.ones(rows), columns, split_fraction=1.0, rng=rng)
     row, column = np.divmod(np.arange(rows * columns), columns)
     start, shift = rng.random(2), rng.uniform(-0.25, 0.25, (2, rows * columns))
     z = (row + shift[0] + start[0] - rows / 2) * step
@@ -126,8 +126,8 @@ def sampled(points, step):
     """Points along a closed polyline, at most a step apart."""
     ahead = np.roll(points, -1, axis=0) - points
     counts = np.ceil(np.linalg.norm(ahead, axis=1) / step).astype(int)
-    shares = np.concatenate([np.arange(count) / count for count in counts])
-    return np.repeat(points, counts, axis=0) + shares[:, None] * np.repeat(ahead, counts, axis=0)
+    fractions = np.concatenate([np.arange(count) / count for count in counts])
+    return np.repeat(points, counts, axis=0) + fractions[:, None] * np.repeat(ahead, counts, axis=0)
 
 
 def hausdorff(one, two, step):

@@ -141,7 +141,7 @@ def test_required_edges_across_one_flow_level_are_infeasible():
 
 def test_contour_across_a_barrier_is_refused():
     """The contour runs through the midpoints of the edges between two rows."""
-    mesh = meshes.tube(np.ones(9), COLUMNS, split_share=1.0)
+    mesh = meshes.tube(np.ones(9), COLUMNS, split_fraction=1.0)
     between = [t for t in mesh.triangles.tolist() if {v // COLUMNS for v in t} == {4, 5}]
     crossed = {frozenset((a, b)) for t in between for a in t for b in t if a // COLUMNS == 4 and b // COLUMNS == 5}
     ends = sorted((min(e), max(e)) for e in crossed)

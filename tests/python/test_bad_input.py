@@ -265,7 +265,7 @@ def test_zero_length_edges(flow, merged):
 
 @pytest.mark.parametrize("flow", FLOWS)
 def test_zero_area_faces(flow):
-    mesh = meshes.tube(np.ones(9), 8, split_share=1.0)
+    mesh = meshes.tube(np.ones(9), 8, split_fraction=1.0)
     flat = mesh.positions.copy()
     flat[[43, 44]] = flat[[35, 36]] * 0.5 + flat[[34, 35]] * 0.5
     check_answer_or_error(mesh.moved(flat), ring(4), {"flow": flow})

@@ -41,7 +41,7 @@ def allocated():
     return told.uordblks + told.hblkhd
 
 
-MESH = meshes.torus(14, 60, rng=np.random.default_rng(5), split_share=0.5, noise=0.02, grooves=0.3)
+MESH = meshes.torus(14, 60, rng=np.random.default_rng(5), split_fraction=0.5, noise=0.02, grooves=0.3)
 RINGS = [60 * np.arange(14, dtype=np.int32) + column for column in (5, 20, 40)]
 OPTIONS = {"width": 5, "refinement": 1, "iterations": 3, "regular_iterations": 1}
 
@@ -69,7 +69,7 @@ class Canceller:
     def __init__(self, at, by_exception):
         self.at, self.by_exception, self.heard = at, by_exception, 0
 
-    def __call__(self, share):
+    def __call__(self, fraction):
         self.heard += 1
         if self.heard == self.at and self.by_exception:
             raise Stopped

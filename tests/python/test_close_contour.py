@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from conftest import surface_of
 
-SHARES = (0.25, 1 / 3, 0.5)
+FRACTIONS = (0.25, 1 / 3, 0.5)
 COLUMNS = 28
 
 
@@ -20,7 +20,7 @@ def grid_limb(kind, rng, rows=45):
         "grooved": 1.0 - 0.25 * np.exp(-(((along - 0.5) / 0.04) ** 2)),
         "tapering": 0.8 + 0.3 * np.cos(4 * along),
     }[kind]
-    return meshes.tube(radius, COLUMNS, step=0.2, split_share=rng.uniform(), rng=rng, noise=0.01)
+    return meshes.tube(radius, COLUMNS, step=0.2, split_fraction=rng.uniform(), rng=rng, noise=0.01)
 
 
 def limb(rng):
@@ -41,11 +41,11 @@ def length_of(mesh, contour, closed=True):
     return np.linalg.norm(np.diff(points, axis=0), axis=1).sum()
 
 
-def part_of(mesh, ring, share, rng):
+def part_of(mesh, ring, fraction, rng):
     """A chain along a ring that has this fraction of its length, from a random place in a random direction."""
     ring = np.roll(ring, rng.integers(len(ring)))
     steps = np.linalg.norm(np.diff(mesh.positions[np.append(ring, ring[0])], axis=0), axis=1)
-    count = max(2, int(np.searchsorted(np.cumsum(steps), share * steps.sum())) + 1)
+    count = max(2, int(np.searchsorted(np.cumsum(steps), fraction * steps.sum())) + 1)
     return ring[:count][:: rng.choice([-1, 1])].copy()
 
 
@@ -67,13 +67,13 @@ def check_simple(mesh, loop, chain):
     assert edges_of(loop) <= {frozenset(pair) for pair in mesh.real_edges().tolist()}
 
 
-@pytest.mark.parametrize("share", SHARES)
-def test_part_of_a_ring_is_closed_once_around_the_limb(share):
+@pytest.mark.parametrize("fraction", FRACTIONS)
+def test_part_of_a_ring_is_closed_once_around_the_limb(fraction):
     for seed in range(70):
-        rng = np.random.default_rng([seed, round(100 * share)])
+        rng = np.random.default_rng([seed, round(100 * fraction)])
         mesh, center, plane = limb(rng)
         ring = rough_ring(rng)
-        chain = part_of(mesh, ring, share, rng)
+        chain = part_of(mesh, ring, fraction, rng)
         loop = mrc.close_contour(surface_of(mesh), chain)
         check_simple(mesh, loop, chain)
         assert abs(winding(mesh, loop, center, plane)) == 1, seed
@@ -97,7 +97,7 @@ def test_shortest_and_longest_chains_are_closed(count):
 def test_chain_is_closed_around_the_tube_of_a_torus():
     for seed in range(20):
         rng = np.random.default_rng(seed)
-        mesh = meshes.torus(20, 60, rng=rng, split_share=rng.uniform(), noise=0.01)
+        mesh = meshes.torus(20, 60, rng=rng, split_fraction=rng.uniform(), noise=0.01)
         ring = 60 * np.arange(20) + rng.integers(60)
         loop = mrc.close_contour(surface_of(mesh), part_of(mesh, ring, 0.3, rng))
         assert winding(mesh, loop, np.zeros(3), np.eye(3)[:2]) == 0
@@ -134,7 +134,7 @@ def test_reversal_gives_the_same_loop():
     for seed in range(20):
         rng = np.random.default_rng(seed)
         mesh = meshes.tube(np.full(30, 1.0), COLUMNS, step=0.2) if seed % 2 else limb(rng)[0]
-        chain = part_of(mesh, rough_ring(rng, 12, 17), rng.choice(SHARES), rng)
+        chain = part_of(mesh, rough_ring(rng, 12, 17), rng.choice(FRACTIONS), rng)
         surface = surface_of(mesh)
         there, back = mrc.close_contour(surface, chain), mrc.close_contour(surface, chain[::-1].copy())
         np.testing.assert_array_equal(np.roll(there[::-1], len(chain)), back)
@@ -144,7 +144,7 @@ def test_rigid_motion_scale_and_renumbering_change_nothing():
     for seed in range(20):
         rng = np.random.default_rng(seed)
         mesh, _, _ = limb(rng)
-        chain = part_of(mesh, rough_ring(rng), rng.choice(SHARES), rng)
+        chain = part_of(mesh, rough_ring(rng), rng.choice(FRACTIONS), rng)
         loop = mrc.close_contour(surface_of(mesh), chain)
         for other in (
             meshes.rigidly_moved(mesh, rng),
@@ -171,14 +171,14 @@ def test_faces_far_away_change_nothing():
         )
 
 
-@pytest.mark.parametrize("share", SHARES)
-def test_optimization_finds_the_groove_from_part_of_a_ring(share):
+@pytest.mark.parametrize("fraction", FRACTIONS)
+def test_optimization_finds_the_groove_from_part_of_a_ring(fraction):
     """This holds if the chain lies within three rings of the groove, wherever it begins."""
     options = mrc.Options(flow="harmonic", width=8, iterations=2, length_bias=2.0, anchor=0.5)
     for seed in range(70):
-        rng = np.random.default_rng([seed, round(100 * share)])
+        rng = np.random.default_rng([seed, round(100 * fraction)])
         mesh = grid_limb("grooved", rng)
-        chain = part_of(mesh, rough_ring(rng, 20, 25), share, rng)
+        chain = part_of(mesh, rough_ring(rng, 20, 25), fraction, rng)
         surface = surface_of(mesh)
         result = mrc.optimize(surface, mrc.close_contour(surface, chain), options=options)
         assert np.abs(np.asarray(result.vertices) // COLUMNS - 22).max() <= 1, seed
@@ -196,18 +196,18 @@ def plane(rows=12, columns=15):
 def test_progress_never_decreases_and_changes_nothing():
     rng = np.random.default_rng(4)
     mesh, chain = grid_limb("grooved", rng), np.arange(20 * COLUMNS + 3, 20 * COLUMNS + 12)
-    shares = []
-    loop = mrc.close_contour(surface_of(mesh), chain, progress=shares.append)
+    fractions = []
+    loop = mrc.close_contour(surface_of(mesh), chain, progress=fractions.append)
     np.testing.assert_array_equal(loop, mrc.close_contour(surface_of(mesh), chain))
-    assert shares == sorted(shares)
-    assert (shares[0], shares[-1]) == (0.0, 1.0)
+    assert fractions == sorted(fractions)
+    assert (fractions[0], fractions[-1]) == (0.0, 1.0)
 
 
 def test_closing_can_be_cancelled_at_once():
-    surface, shares = surface_of(grid_limb("cylinder", np.random.default_rng(4))), []
+    surface, fractions = surface_of(grid_limb("cylinder", np.random.default_rng(4))), []
     chain = np.arange(20 * COLUMNS + 3, 20 * COLUMNS + 12)
-    assert mrc.close_contour(surface, chain, progress=lambda share: shares.append(share) or False) is None
-    assert shares == [0.0]
+    assert mrc.close_contour(surface, chain, progress=lambda fraction: fractions.append(fraction) or False) is None
+    assert fractions == [0.0]
     with pytest.raises(ZeroDivisionError):
         mrc.close_contour(surface, chain, progress=lambda _: 1 / 0)
 
@@ -215,14 +215,14 @@ def test_closing_can_be_cancelled_at_once():
 def test_long_vain_search_can_be_cancelled():
     """Everything within reach is searched before the chain is refused, and progress is called meanwhile."""
     plane = meshes.polygon_mesh(*flat_sheet(160))
-    shares = []
+    fractions = []
     with pytest.raises(ValueError, match="nothing leads"):
-        mrc.close_contour(surface_of(plane), np.arange(12870, 12890), progress=shares.append)
-    assert len(shares) > 3
-    assert shares == sorted(shares)
+        mrc.close_contour(surface_of(plane), np.arange(12870, 12890), progress=fractions.append)
+    assert len(fractions) > 3
+    assert fractions == sorted(fractions)
     heard = []
     left = mrc.close_contour(
-        surface_of(plane), np.arange(12870, 12890), progress=lambda share: heard.append(share) or share < 0.3
+        surface_of(plane), np.arange(12870, 12890), progress=lambda fraction: heard.append(fraction) or fraction < 0.3
     )
     assert left is None
     assert 0.3 <= heard[-1] < 0.9

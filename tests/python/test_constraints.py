@@ -76,7 +76,7 @@ def test_open_optimum_matches_the_independent_solver(ends, kind, seed):
 def test_barriers_are_never_crossed(k, seed):
     """The band, and with it the contour, stays on the given contour's side of a closed loop of barriers."""
     rng = np.random.default_rng(seed)
-    mesh = meshes.tube(rng.uniform(0.7, 1.3, 11), 8, step=0.5, split_share=0.6, rng=rng, noise=0.05)
+    mesh = meshes.tube(rng.uniform(0.7, 1.3, 11), 8, step=0.5, split_fraction=0.6, rng=rng, noise=0.05)
     contour = meshes.zigzag_contour(rng, 8, 4, 5)
     fence = 7 * 8 + np.arange(8)
     barriers = np.stack([fence, np.roll(fence, -1)], axis=1).astype(np.int32)

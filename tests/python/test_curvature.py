@@ -36,7 +36,9 @@ def along(directions, axis):
 
 BODIES = {
     "peanut": lambda rng: meshes.peanut(rng, 2),
-    "mixed tube": lambda rng: meshes.tube(rng.uniform(0.8, 1.2, 8), 9, step=0.6, split_share=0.5, rng=rng, noise=0.1),
+    "mixed tube": lambda rng: meshes.tube(
+        rng.uniform(0.8, 1.2, 8), 9, step=0.6, split_fraction=0.5, rng=rng, noise=0.1
+    ),
     "rough sheet": lambda rng: height_field(1, 6, lambda x, y: 0.2 * np.sin(3 * x) * y, rng, 0.3),
 }
 

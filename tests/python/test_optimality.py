@@ -23,7 +23,7 @@ def triangle_annulus(rng):
 
 def mixed_annulus(rng):
     rings, columns = int(rng.integers(3, 6)), int(rng.integers(5, 9))
-    mesh = meshes.jittered_annulus(rng, rings, columns, split_share=rng.uniform(0.2, 0.8))
+    mesh = meshes.jittered_annulus(rng, rings, columns, split_fraction=rng.uniform(0.2, 0.8))
     return mesh, meshes.zigzag_contour(rng, columns, 1, rings - 2)
 
 
@@ -39,14 +39,14 @@ def level_cylinder(rng):
 def closed_torus(rng):
     """The band meets itself on the other side of the torus."""
     rows, columns = int(rng.integers(5, 8)), int(rng.integers(5, 8))
-    mesh = meshes.torus(rows, columns, rng=rng, split_share=rng.choice([0.0, 0.5, 1.0]), noise=0.1)
+    mesh = meshes.torus(rows, columns, rng=rng, split_fraction=rng.choice([0.0, 0.5, 1.0]), noise=0.1)
     return mesh, meshes.zigzag_contour(rng, columns, 1, 3)
 
 
 def long_tube(rng):
     """The mesh continues beyond the band, farther than anything that affects its scales and curvatures."""
     rows, columns = int(rng.integers(13, 17)), int(rng.integers(5, 8))
-    mesh = meshes.tube(rng.uniform(0.8, 1.3, rows), columns, step=0.7, split_share=0.6, rng=rng, noise=0.08)
+    mesh = meshes.tube(rng.uniform(0.8, 1.3, rows), columns, step=0.7, split_fraction=0.6, rng=rng, noise=0.08)
     return mesh, meshes.zigzag_contour(rng, columns, rows // 2 - 1, rows // 2 + 1)
 
 

@@ -260,7 +260,7 @@ def test_progress_has_three_phases_per_iteration(realistic):
         heard.clear()
         mrc.optimize(surface, contour, options=mrc.Options(**options), progress=heard.append)
         assert heard == sorted(heard)
-        phases = [round(total * share, 9) for share in dict.fromkeys(heard)]
+        phases = [round(total * fraction, 9) for fraction in dict.fromkeys(heard)]
         assert phases[:3] == [0, 1, 2]
         assert phases[-1] == total
         assert set(phases) <= set(range(total + 1))
@@ -269,10 +269,12 @@ def test_progress_has_three_phases_per_iteration(realistic):
 def test_cancelling_in_any_phase_changes_nothing(realistic):
     _, mesh, contour = realistic
     surface, options = surface_of(mesh), mrc.Options(iterations=2)
-    shares = []
-    mrc.optimize(surface, contour, options=options, progress=shares.append)
-    for share in dict.fromkeys(shares):
-        result = mrc.optimize(surface, contour, options=options, progress=lambda done, share=share: done < share)
+    fractions = []
+    mrc.optimize(surface, contour, options=options, progress=fractions.append)
+    for fraction in dict.fromkeys(fractions):
+        result = mrc.optimize(
+            surface, contour, options=options, progress=lambda done, fraction=fraction: done < fraction
+        )
         assert result.status == "cancelled"
         assert result.vertices.tolist() == contour.tolist()
         assert result.objective == result.initial_objective

@@ -20,10 +20,10 @@ def body(rng, kind):
     rows, columns = int(rng.integers(24, 34)), int(rng.integers(10, 16))
     if kind == "torus":
         split = rng.choice([0.0, 0.5, 1.0])
-        return meshes.torus(columns, rows, rng=rng, split_share=split, noise=0.05, grooves=0.3), columns, rows
+        return meshes.torus(columns, rows, rng=rng, split_fraction=split, noise=0.05, grooves=0.3), columns, rows
     radius = 1 + 0.3 * np.sin(0.9 * np.arange(rows)) + rng.uniform(-0.15, 0.15, rows)
     split, noise = rng.choice([0.0, 0.5, 1.0]), rng.choice([0.0, 0.05])
-    return meshes.tube(radius, columns, step=0.4, rng=rng, split_share=split, noise=noise), rows, columns
+    return meshes.tube(radius, columns, step=0.4, rng=rng, split_fraction=split, noise=noise), rows, columns
 
 
 def loops_in_a_row(rng, kind):
@@ -189,8 +189,8 @@ def level_line(mesh, values, level):
         crossing = {}
         for a, b in zip(triangle, triangle[1:] + triangle[:1], strict=True):
             if (values[a] > level) != (values[b] > level):
-                share = round(40 * (level - values[a]) / (values[b] - values[a])) / 40
-                crossing[values[a] > level] = point_on(a, b, share)
+                fraction = round(40 * (level - values[a]) / (values[b] - values[a])) / 40
+                crossing[values[a] > level] = point_on(a, b, fraction)
         if crossing:
             following[crossing[True]] = crossing[False]
     line = [next(iter(following))]
@@ -202,7 +202,7 @@ def level_line(mesh, values, level):
 def grooved_tube():
     rows, columns = 13, 24
     radius = 1 - 0.3 * np.exp(-(((np.arange(rows) - 5) / 1.5) ** 2))
-    return meshes.tube(radius, columns, step=0.3, rng=np.random.default_rng(1), split_share=1.0)
+    return meshes.tube(radius, columns, step=0.3, rng=np.random.default_rng(1), split_fraction=1.0)
 
 
 @pytest.mark.parametrize("k", [0, 1])
@@ -248,7 +248,7 @@ def network(rng):
     """Chains of a grid on a tube that meet in junctions: along four meridians and around three rings."""
     rows, columns = 25, 16
     radius = 1 + 0.3 * np.sin(0.7 * np.arange(rows)) + rng.uniform(-0.1, 0.1, rows)
-    mesh = meshes.tube(radius, columns, step=0.4, rng=rng, split_share=rng.choice([0.0, 1.0]), noise=0.03)
+    mesh = meshes.tube(radius, columns, step=0.4, rng=rng, split_fraction=rng.choice([0.0, 1.0]), noise=0.03)
     grid = np.arange(rows * columns, dtype=np.int32).reshape(rows, columns)
     levels, meridians = (4, 12, 20), (0, 4, 8, 12)
     chains = [grid[low : high + 1, c] for low, high in zip(levels, levels[1:], strict=False) for c in meridians]
@@ -274,7 +274,7 @@ def test_network_keeps_its_junctions(k, seed):
 def test_end_on_the_border_slides_unless_shared():
     rows, columns = 9, 16
     rng = np.random.default_rng(5)
-    mesh = meshes.tube(1 + 0.3 * np.cos(np.arange(rows)), columns, step=0.4, rng=rng, split_share=1.0, noise=0.05)
+    mesh = meshes.tube(1 + 0.3 * np.cos(np.arange(rows)), columns, step=0.4, rng=rng, split_fraction=1.0, noise=0.05)
     grid = np.arange(rows * columns, dtype=np.int32).reshape(rows, columns)
     edges = {tuple(edge) for edge in mesh.real_edges().tolist()}
     # A meridian, and a chain that starts at the same border vertex with a diagonal step.
@@ -362,10 +362,10 @@ def test_touching_given_contours_still_touch_only_there():
 def test_progress_is_called_and_can_cancel_all():
     mesh, ring = two_grooves()
     surface, options = surface_of(mesh), mrc.Options(iterations=3)
-    shares = []
-    mrc.optimize_all(surface, [ring[7], ring[17]], options=options, progress=shares.append)
-    assert shares == sorted(shares)
-    assert (shares[0], shares[-1]) == (0.0, 1.0)
+    fractions = []
+    mrc.optimize_all(surface, [ring[7], ring[17]], options=options, progress=fractions.append)
+    assert fractions == sorted(fractions)
+    assert (fractions[0], fractions[-1]) == (0.0, 1.0)
     cancelled = mrc.optimize_all(surface, [ring[7], ring[17]], options=options, progress=lambda _: False)
     assert [result.status for result in cancelled] == ["cancelled", "cancelled"]
     assert [result.vertices.tolist() for result in cancelled] == [ring[7].tolist(), ring[17].tolist()]
@@ -413,7 +413,7 @@ def test_wrong_types_are_refused():
 def test_edge_between_two_shared_points_is_closed_to_both_contours(seed):
     """Where two given contours part and meet again, both might take the edge between the two vertices."""
     rng = np.random.default_rng(seed)
-    mesh = meshes.tube(1 + 0.4 * rng.random(11), 8, step=0.5, rng=rng, split_share=1.0, noise=0.1)
+    mesh = meshes.tube(1 + 0.4 * rng.random(11), 8, step=0.5, rng=rng, split_fraction=1.0, noise=0.1)
     given = [np.array(meshes.zigzag_contour(rng, 8, 4, 6, 0.9)) for _ in range(2)]
     results = mrc.optimize_all(surface_of(mesh), given, options=mrc.Options(iterations=2, width=2))
     one, two = (edges_of(result.vertices) for result in results)

@@ -18,7 +18,7 @@ def random_tube(seed):
         rng.uniform(0.7, 1.3, ROWS),
         COLUMNS,
         step=0.6,
-        split_share=float(rng.choice([0.0, 0.5, 1.0])),
+        split_fraction=float(rng.choice([0.0, 0.5, 1.0])),
         rng=rng,
         noise=0.05,
     )

@@ -54,7 +54,7 @@ def test_attractors_may_be_an_array_and_errors_name_bad_ones():
 
 
 def test_contour_through_its_own_edge_is_not_simple():
-    mesh = tube(split_share=1.0)
+    mesh = tube(split_fraction=1.0)
     surface, a, b = surface_of(mesh), 17, 18
     points = [(a, a), (b, b), (b + 8, b + 8), (a, b), (a - 8, b - 8)]
     with pytest.raises(ValueError, match="twice|crosses|touch"):
@@ -113,7 +113,7 @@ def test_refined_result_along_hidden_faces_can_be_given_again():
 
 
 def test_open_refined_contour_may_begin_inside_an_edge():
-    surface = surface_of(tube(split_share=1.0))
+    surface = surface_of(tube(split_fraction=1.0))
     points = [(16, 17), (17, 17), (18, 18), (19, 19)]
     for k in (0, 1, 2):
         result = mrc.optimize(
@@ -134,7 +134,7 @@ def test_unmet_requirements_without_iterations_are_an_error():
 def test_refined_phase_never_ends_above_the_given_contour():
     for seed in range(40):
         rng = np.random.default_rng(seed)
-        mesh = meshes.tube(rng.uniform(0.7, 1.3, 6), 7, step=0.5, rng=rng, noise=0.1, split_share=0.5)
+        mesh = meshes.tube(rng.uniform(0.7, 1.3, 6), 7, step=0.5, rng=rng, noise=0.1, split_fraction=0.5)
         given = meshes.zigzag_contour(rng, 7, 2, 4)
         options = mrc.Options(refinement=1, regular_iterations=2, width=2, max_turn=float(rng.uniform(0.8, 2.0)))
         result = mrc.optimize(surface_of(mesh), given, options=options)
@@ -196,7 +196,7 @@ def test_random_barriers_are_never_crossed(flow, k):
     for seed in range(30):
         rng = np.random.default_rng([seed, k])
         mesh = meshes.tube(
-            rng.uniform(0.7, 1.3, 13), 14, step=0.4, rng=rng, split_share=rng.choice([0.0, 1.0]), noise=0.05
+            rng.uniform(0.7, 1.3, 13), 14, step=0.4, rng=rng, split_fraction=rng.choice([0.0, 1.0]), noise=0.05
         )
         contour = meshes.zigzag_contour(rng, 14, 5, 7)
         edges = mesh.real_edges()

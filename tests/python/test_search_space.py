@@ -38,7 +38,7 @@ def test_bands_of_whole_surfaces(flow):
 def test_bands_of_mixed_polygons(flow, seed):
     """Random quads and triangles, with zigzag contours and with hidden faces that stop the growth."""
     rng = np.random.default_rng(seed)
-    mesh = meshes.tube(rng.uniform(0.8, 1.2, 15), 12, step=0.5, split_share=rng.random(), rng=rng, noise=0.05)
+    mesh = meshes.tube(rng.uniform(0.8, 1.2, 15), 12, step=0.5, split_fraction=rng.random(), rng=rng, noise=0.05)
     contour = meshes.zigzag_contour(rng, 12, 5, 9, step_chance=0.6)
     beside = {i for i, face in enumerate(mesh.faces) if set(face) & set(contour.tolist())}
     hidden = np.array([i for i in range(len(mesh.faces)) if i not in beside and rng.random() < 0.06], dtype=np.int32)
@@ -66,7 +66,7 @@ def test_left_side_of_the_band_is_left_of_the_contour():
 
 @pytest.mark.parametrize("flow", FLOWS)
 def test_band_on_a_torus_remains_an_annulus(flow, rng):
-    mesh = meshes.torus(12, 16, rng=rng, noise=0.02, split_share=0.5)
+    mesh = meshes.torus(12, 16, rng=rng, noise=0.02, split_fraction=0.5)
     for width in (3, 6, 20, None):
         checked_space(mesh, 4 * 16 + np.arange(16, dtype=np.int32), {"width": width, "flow": flow})
 
