@@ -5,6 +5,7 @@
 
 namespace mrc_python {
 
+void bind_errors(pybind11::module_& module);
 void bind_surface(pybind11::module_& module);
 void bind_options(pybind11::module_& module);
 void bind_results(pybind11::module_& module);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings.h"
+#include "errors.h"
 #include "inputs.h"
 #include "results.h"
 #include "search_space.h"
 
+#include <mrc/check_contour.h>
 #include <mrc/close_contour.h>
 #include <mrc/curvature.h>
 #include <mrc/measure.h>
@@ -21,8 +23,6 @@ using mrc::Options;
 using mrc::Scales;
 using mrc::Surface;
 
-const Scales* address(const std::optional<Scales>& scales) { return scales ? &*scales : nullptr; }
-
 PyResult optimize(const Surface& surface, const py::object& vertices, bool closed, const Options& options,
                   const py::object& required_vertices, const py::object& required_edges, const Iterable& attractors,
                   const py::object& barriers, const py::object& region_density, const std::optional<Scales>& scales,
@@ -32,23 +32,62 @@ PyResult optimize(const Surface& surface, const py::object& vertices, bool close
     const mrc::Constraints constraints = to_constraints(required_vertices, required_edges, attractors, barriers, density);
     const mrc::Progress report = to_progress(progress);
     const py::gil_scoped_release release;
-    return describe(surface, mrc::optimize(surface, contour, options, constraints, address(scales), report));
+    return describe(surface, mrc::optimize(surface, contour, options, constraints, scales, report));
 }
 
-std::vector<PyResult> optimize_all(const Surface& surface, const Iterable& contours, const py::object& closed,
-                                   const Options& options, const py::object& required_vertices, const py::object& required_edges,
-                                   const Iterable& attractors, const py::object& barriers, const py::object& region_density,
-                                   const py::object& scales, const py::object& progress) {
+/// Of what the option `errors` says.
+bool returns_errors(const py::object& errors) {
+    const std::string words = py::isinstance<py::str>(errors) ? py::cast<std::string>(errors) : "";
+    if (words == "return") return true;
+    if (words == "raise") return false;
+    throw py::value_error("errors is " + py::cast<std::string>(py::repr(errors)) + ": it must be 'raise' or 'return'");
+}
+
+std::vector<mrc::Outcome> outcomes_of(const Surface& surface, const std::vector<mrc::Task>& tasks, const Options& options,
+                                      const mrc::Progress& progress, bool return_errors) {
+    if (return_errors) return mrc::optimize_each(surface, tasks, options, progress);
+    std::vector<mrc::Outcome> outcomes;
+    for (mrc::Result& result : mrc::optimize_all(surface, tasks, options, progress)) outcomes.emplace_back(std::move(result));
+    return outcomes;
+}
+
+py::list optimize_all(const Surface& surface, const Iterable& contours, const py::object& closed, const Options& options,
+                      const py::object& required_vertices, const py::object& required_edges, const Iterable& attractors,
+                      const py::object& barriers, const py::object& region_density, const py::object& scales,
+                      const py::object& progress, const py::object& errors) {
+    const bool return_errors = returns_errors(errors);
     const Density density = to_density(region_density);
     const mrc::Constraints shared = to_constraints(py::tuple(), py::tuple(), attractors, barriers, density);
     const std::vector<mrc::Task> tasks = to_tasks(contours, closed, required_vertices, required_edges, shared, scales);
     const mrc::Progress report = to_progress(progress);
-    const py::gil_scoped_release release;
-    std::vector<PyResult> described;
-    for (mrc::Result& result : mrc::optimize_all(surface, tasks, options, report)) {
-        described.push_back(describe(surface, std::move(result)));
+    std::vector<mrc::Outcome> outcomes;
+    {
+        const py::gil_scoped_release release;
+        outcomes = outcomes_of(surface, tasks, options, report, return_errors);
+    }
+    py::list described;  // of results, or errors where these are asked for: no signature can say which
+    for (mrc::Outcome& outcome : outcomes) {
+        if (const auto* error = std::get_if<mrc::InvalidInput>(&outcome)) {
+            described.append(to_python(*error));
+        } else {
+            described.append(describe(surface, std::get<mrc::Result>(std::move(outcome))));
+        }
     }
     return described;
+}
+
+py::typing::Optional<PyInvalidInput> check_contour(const Surface& surface, const py::object& vertices, bool closed,
+                                                   const py::object& barriers, const py::object& edge_vertices,
+                                                   const py::object& edge_parameters) {
+    const mrc::Contour contour = to_contour(vertices, closed, edge_vertices, edge_parameters);
+    const std::vector<std::array<int, 2>> edges = edge_pairs(barriers, "barriers");
+    std::optional<mrc::InvalidInput> error;
+    {
+        const py::gil_scoped_release release;
+        error = mrc::check_contour(surface, contour, edges);
+    }
+    if (!error) return py::none();
+    return to_python(*error);
 }
 
 mrc::Measure measure(const Surface& surface, const py::object& vertices, bool closed, const Options& options,
@@ -58,7 +97,7 @@ mrc::Measure measure(const Surface& surface, const py::object& vertices, bool cl
     const Density density = to_density(region_density);
     const mrc::Constraints constraints = to_constraints(py::tuple(), py::tuple(), attractors, py::tuple(), density);
     const py::gil_scoped_release release;
-    return mrc::measure(surface, contour, options, constraints, address(scales));
+    return mrc::measure(surface, contour, options, constraints, scales);
 }
 
 py::typing::Optional<Integers> close_contour(const Surface& surface, const py::object& vertices, const py::object& progress) {
@@ -81,7 +120,7 @@ PyCurvature curvature(const Surface& surface, const Options& options, const std:
     std::vector<mrc::VertexCurvature> values;
     {
         const py::gil_scoped_release release;
-        values = mrc::curvature(surface, options, address(scales));
+        values = mrc::curvature(surface, options, scales);
     }
     std::vector<double> least, most;
     least.reserve(values.size()), most.reserve(values.size());
@@ -241,14 +280,15 @@ void bind_functions(py::module_& module) {
         "scales: those of an earlier result, to go on from it.\n"
         "progress: called with the share done, from 0 to 1, three phases an iteration, and in long phases again every few\n"
         "milliseconds; returning False cancels, an exception passes through.\n"
-        "Returns a Result. Raises ValueError naming the elements where the contour is not simple, not inside the mesh or crosses\n"
+        "Returns a Result. Raises InvalidInput, a ValueError, naming the elements where the contour is not simple, not inside the "
+        "mesh or crosses\n"
         "a barrier; of these Infeasible, where no contour of the band has all required elements, and TooLarge, where the search\n"
         "would take more memory than there is. Ids that are no whole numbers are a TypeError.");
     module.def(
         "optimize_all", &optimize_all, py::arg("surface"), py::arg("contours"), py::arg("closed") = true, defaults,
         py::arg("required_vertices") = nothing, py::arg("required_edges") = nothing, py::arg("attractors") = nothing,
         py::arg("barriers") = nothing, py::arg("region_density") = py::none(), py::arg("scales") = py::none(),
-        py::arg("progress") = py::none(),
+        py::arg("progress") = py::none(), py::arg("errors") = "raise",
         "Optimizes several contours of one surface, in parallel; they never cross or touch where the given ones did not (1.4).\n\n"
         "contours: a sequence, each as (N,) vertex ids, as a tuple of edge_vertices (N, 2) and edge_parameters (N,), or an\n"
         "earlier Result.\n"
@@ -256,8 +296,15 @@ void bind_functions(py::module_& module) {
         "The other arguments are those of optimize.\n"
         "Each contour searches the faces that are nearer to it than to any other; what two bands share is closed to both. The\n"
         "results do not depend on the order of the contours, nor on the option threads.\n"
+        "errors: 'raise', or 'return': a contour in error gets its InvalidInput in the place of a Result and stays where it is,\n"
+        "and the others are optimized all the same. Where it runs along real edges they keep clear of it.\n"
         "Returns a list of Results; held_back_by says which other contours kept one's band from growing. Raises what optimize\n"
-        "raises, naming the contour by its place in the list.");
+        "raises, for the first contour in error: the attribute contour is its place in the list.");
+    module.def(
+        "check_contour", &check_contour, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true,
+        py::arg("barriers") = nothing, py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
+        "Why optimize would refuse a contour, without a search: an InvalidInput that is not raised, or None. Arguments are those\n"
+        "of optimize. Required elements that cannot be reached are found by the search only.");
     module.def(
         "measure", &measure, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true, defaults,
         py::arg("attractors") = nothing, py::arg("region_density") = py::none(), py::arg("scales") = py::none(),

@@ -10,15 +10,6 @@
 namespace mrc_python {
 namespace {
 
-std::vector<std::array<int, 2>> edge_pairs(const py::object& edges, const char* name) {
-    const Integers pairs = integers(edges, name);
-    if (pairs.size() == 0) return {};
-    require_shape(pairs, 2, name);
-    std::vector<std::array<int, 2>> result;
-    for (py::ssize_t i = 0; i < pairs.shape(0); ++i) result.push_back({pairs.at(i, 0), pairs.at(i, 1)});
-    return result;
-}
-
 std::vector<mrc::Attractor> to_attractors(const Iterable& attractors) {
     std::vector<mrc::Attractor> result;
     for (const py::handle item : attractors) {
@@ -104,10 +95,19 @@ mrc::Contour to_contour(const py::object& vertices, bool closed, const py::objec
 }
 
 Density to_density(const py::object& density) {
-    if (density.is_none()) return {Doubles(0), {}};
-    Doubles values = doubles(density, "region_density");
+    if (density.is_none()) return nullptr;
+    const Doubles values = doubles(density, "region_density");
     require_shape(values, 0, "region_density");
-    return {values, view(values)};
+    return std::make_shared<const std::vector<double>>(values.data(), values.data() + values.size());
+}
+
+std::vector<std::array<int, 2>> edge_pairs(const py::object& edges, const char* name) {
+    const Integers pairs = integers(edges, name);
+    if (pairs.size() == 0) return {};
+    require_shape(pairs, 2, name);
+    std::vector<std::array<int, 2>> result;
+    for (py::ssize_t i = 0; i < pairs.shape(0); ++i) result.push_back({pairs.at(i, 0), pairs.at(i, 1)});
+    return result;
 }
 
 mrc::Constraints to_constraints(const py::object& required_vertices, const py::object& required_edges, const Iterable& attractors,
@@ -119,7 +119,7 @@ mrc::Constraints to_constraints(const py::object& required_vertices, const py::o
     constraints.required_edges = edge_pairs(required_edges, "required_edges");
     constraints.attractors = to_attractors(attractors);
     constraints.barriers = edge_pairs(barriers, "barriers");
-    constraints.region_density = region_density.values;
+    constraints.region_density = region_density;
     return constraints;
 }
 
@@ -133,7 +133,7 @@ std::vector<mrc::Task> to_tasks(const Iterable& contours, const py::object& clos
     const auto scales_each = one_each(scales, !is_list(scales), count, "scales");
     std::vector<mrc::Task> tasks;
     for (std::size_t i = 0; i < count; ++i) {
-        const mrc::Constraints own = to_constraints(vertices_each[i], edges_each[i], py::tuple(), py::tuple(), {Doubles(0), {}});
+        const mrc::Constraints own = to_constraints(vertices_each[i], edges_each[i], py::tuple(), py::tuple(), nullptr);
         mrc::Task task{listed_contour(list[i], py::bool_(closed_each[i])), shared, std::nullopt};
         task.constraints.required_vertices = own.required_vertices;
         task.constraints.required_edges = own.required_edges;

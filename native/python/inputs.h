@@ -5,7 +5,8 @@
 
 #include <mrc/optimize.h>
 
-#include <span>
+#include <array>
+#include <memory>
 #include <vector>
 
 namespace mrc_python {
@@ -14,16 +15,15 @@ namespace mrc_python {
 mrc::Contour to_contour(const py::object& vertices, bool closed, const py::object& edge_vertices,
                         const py::object& edge_parameters);
 
-/// A region density, and the array that holds it.
-struct Density {
-    Doubles array;
-    std::span<const double> values;
-};
+/// A copy of a region density; null: none.
+using Density = std::shared_ptr<const std::vector<double>>;
 Density to_density(const py::object& density);
 
-/// `region_density` must outlive the constraints.
 mrc::Constraints to_constraints(const py::object& required_vertices, const py::object& required_edges, const Iterable& attractors,
                                 const py::object& barriers, const Density& region_density);
+
+/// Vertex pairs.
+std::vector<std::array<int, 2>> edge_pairs(const py::object& edges, const char* name);
 
 /// Several contours; what is not `shared` is one for all or one for each.
 std::vector<mrc::Task> to_tasks(const Iterable& contours, const py::object& closed, const py::object& required_vertices,

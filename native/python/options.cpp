@@ -44,7 +44,8 @@ Enum parse(const Names<Enum, N>& names, const char* option, const std::string& n
         if (name == text) return value;
         known += (known.empty() ? "'" : ", '") + std::string(text) + "'";
     }
-    throw mrc::InvalidInput("option " + std::string(option) + " is '" + name + "': it must be one of " + known);
+    throw mrc::InvalidInput(mrc::ErrorCode::invalid_option,
+                            "option " + std::string(option) + " is '" + name + "': it must be one of " + known);
 }
 
 template <class Enum, std::size_t N>

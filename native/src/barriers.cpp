@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "barriers.h"
 
+#include "element_names.h"
 #include "surface_point.h"
 
 #include <algorithm>
@@ -55,8 +56,10 @@ class BarrierCheck {
             sides.left |= here.left;
             sides.right |= here.right;
             if (sides.left && sides.right) {
-                throw InvalidInput("the contour crosses a barrier at " + name(contour_.points[i]) +
-                                   ": drop the barrier or move the contour");
+                throw InvalidInput(
+                    ErrorCode::crosses_barrier,
+                    "the contour crosses a barrier at " + name(contour_.points[i]) + ": drop the barrier or move the contour",
+                    {element_of(contour_.points[i])});
             }
             if (!along(i)) sides = {};
         }
@@ -71,7 +74,7 @@ class BarrierCheck {
     std::set<std::pair<int, int>> barriers_;
 
     static std::string name(const SurfacePoint& p) {
-        return p.is_vertex() ? "vertex " + std::to_string(p.a) : "edge (" + std::to_string(p.a) + ", " + std::to_string(p.b) + ")";
+        return p.is_vertex() ? "vertex " + std::to_string(p.a) : "edge " + edge_name(p.a, p.b);
     }
     bool is_barrier(int a, int b) const { return barriers_.contains({std::min(a, b), std::max(a, b)}); }
 

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "element_names.h"
 #include "obstacles.h"
 #include "patch.h"
 #include "surface_point.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace mrc {
 namespace {
-
-std::string edge_name(int a, int b) { return "(" + std::to_string(a) + ", " + std::to_string(b) + ")"; }
 
 std::string point_name(const SurfacePoint& p) {
     return p.is_vertex() ? "vertex " + std::to_string(p.a)
@@ -28,21 +29,28 @@ int any_halfedge(const Surface& surface, int a, int b) {
     return -1;
 }
 
+InvalidInput no_edge(int a, int b) {
+    return {ErrorCode::no_edge,
+            "the contour's vertices " + std::to_string(a) + " and " + std::to_string(b) + " are not joined by an edge",
+            {Element::edge(a, b), Element::vertex(a), Element::vertex(b)}};
+}
+
 void check_point(const Surface& surface, const SurfacePoint& p) {
     for (const int v : {p.a, p.b}) {
         if (v < 0 || v >= surface.vertex_count()) {
-            throw InvalidInput("contour vertex " + std::to_string(v) + " is out of range: the surface has " +
-                               std::to_string(surface.vertex_count()) + " vertices");
+            throw InvalidInput(ErrorCode::out_of_range,
+                               "contour vertex " + std::to_string(v) + " is out of range: the surface has " +
+                                   std::to_string(surface.vertex_count()) + " vertices",
+                               {Element::vertex(v)});
         }
     }
     if (!(p.t >= 0.0 && p.t <= 1.0)) {
-        throw InvalidInput("the contour's point on edge " + edge_name(p.a, p.b) + " has parameter " + std::to_string(p.t) +
-                           ": it must be from 0 to 1");
+        throw InvalidInput(ErrorCode::invalid_parameter,
+                           "the contour's point on edge " + edge_name(p.a, p.b) + " has parameter " + std::to_string(p.t) +
+                               ": it must be from 0 to 1",
+                           {Element::edge(p.a, p.b)});
     }
-    if (!p.is_vertex() && any_halfedge(surface, p.a, p.b) < 0 && any_halfedge(surface, p.b, p.a) < 0) {
-        throw InvalidInput("the contour's vertices " + std::to_string(p.a) + " and " + std::to_string(p.b) +
-                           " are not joined by an edge");
-    }
+    if (!p.is_vertex() && any_halfedge(surface, p.a, p.b) < 0 && any_halfedge(surface, p.b, p.a) < 0) throw no_edge(p.a, p.b);
 }
 
 /// The order of points on edges, whichever way these are written.
@@ -53,14 +61,22 @@ std::tuple<int, int, long long> place_key(const SurfacePoint& p) {
 void check_distinct(const Contour& contour) {
     const std::size_t least = contour.closed ? 3 : 2;
     if (contour.points.size() < least) {
-        throw InvalidInput("a contour of " + std::to_string(contour.points.size()) + " vertices: " +
-                           (contour.closed ? "a closed" : "an open") + " contour needs at least " + std::to_string(least));
+        std::vector<Element> elements;
+        std::ranges::transform(contour.points, std::back_inserter(elements), element_of);
+        throw InvalidInput(ErrorCode::too_short,
+                           "the contour is too short: " + std::string(contour.closed ? "a closed" : "an open") +
+                               " contour needs at least " + std::to_string(least) + " vertices, and this one has " +
+                               std::to_string(contour.points.size()),
+                           elements);
     }
     std::set<std::tuple<int, int, long long>> seen;
     for (const SurfacePoint& p : contour.points) {
         if (!seen.insert(place_key(p)).second) {
-            throw InvalidInput("the contour passes " + point_name(p) +
-                               " twice: give a contour that does not touch itself (a closed one does not repeat its first vertex)");
+            throw InvalidInput(
+                ErrorCode::not_simple,
+                "the contour passes " + point_name(p) +
+                    " twice: give a contour that does not touch itself (a closed one does not repeat its first vertex)",
+                {element_of(p)});
         }
     }
 }
@@ -90,9 +106,11 @@ void check_crossings(const Contour& contour, std::vector<Crossing>& crossings) {
         for (auto i = first; i != end; ++i) {
             for (auto j = first; j != end; ++j) {
                 if (i->low < j->low && j->low < i->high && i->high < j->high) {
-                    throw InvalidInput("the contour crosses itself behind " + point_name(contour.points[i->segment]) +
-                                       " and behind " + point_name(contour.points[j->segment]) +
-                                       ": give a contour that does not touch itself");
+                    const SurfacePoint &p = contour.points[i->segment], &q = contour.points[j->segment];
+                    throw InvalidInput(ErrorCode::not_simple,
+                                       "the contour crosses itself: its segments after " + point_name(p) + " and after " +
+                                           point_name(q) + " meet; give a contour that does not touch itself",
+                                       {element_of(p), element_of(q)});
                 }
             }
         }
@@ -111,13 +129,15 @@ void add_crossing(const Surface& surface, int triangle, const SurfacePoint& p, c
     crossings.push_back({triangle, std::min(from, to), std::max(from, to), index});
 }
 
+InvalidInput obstructed(const std::string& what, std::vector<Element> elements, const Obstacle& obstacle) {
+    if (obstacle.element) elements.push_back(*obstacle.element);
+    return {obstacle.code, what + " lies " + obstacle.words + ": move the contour off it", std::move(elements)};
+}
+
 void check_edge(const Surface& surface, int a, int b) {
-    if (!surface.real_edge(a, b)) {
-        throw InvalidInput("the contour's vertices " + std::to_string(a) + " and " + std::to_string(b) +
-                           " are not joined by an edge");
-    }
-    const std::string why = obstacle(surface, a, b);
-    if (!why.empty()) throw InvalidInput("the contour's edge " + edge_name(a, b) + " lies " + why + ": move the contour off it");
+    if (!surface.real_edge(a, b)) throw no_edge(a, b);
+    if (const auto in_the_way = obstacle(surface, a, b))
+        throw obstructed("the contour's edge " + edge_name(a, b), {Element::edge(a, b)}, *in_the_way);
 }
 
 void check_segment(const Surface& surface, const SurfacePoint& p, const SurfacePoint& q, std::size_t index,
@@ -125,15 +145,16 @@ void check_segment(const Surface& surface, const SurfacePoint& p, const SurfaceP
     if (p.is_vertex() && q.is_vertex()) check_edge(surface, p.a, q.a);
     const int triangle = triangle_of_segment(surface, p, q);
     if (triangle < 0) {
-        throw InvalidInput("the contour leaves the surface between " + point_name(p) + " and " + point_name(q) +
-                           ": consecutive points must lie on one triangle");
+        throw InvalidInput(ErrorCode::off_surface,
+                           "the contour leaves the surface between " + point_name(p) + " and " + point_name(q) +
+                               ": consecutive points must lie on one triangle",
+                           {element_of(p), element_of(q)});
     }
     const SharedEdge edge(p, q);
     const bool along = edge.a >= 0 && surface.real_edge(edge.a, edge.b);
-    const std::string why = along ? obstacle(surface, edge.a, edge.b) : obstacle(surface, 3 * triangle);
-    if (!why.empty()) {
-        throw InvalidInput("the contour between " + point_name(p) + " and " + point_name(q) + " lies " + why +
-                           ": move the contour off it");
+    if (const auto in_the_way = along ? obstacle(surface, edge.a, edge.b) : obstacle(surface, 3 * triangle)) {
+        throw obstructed("the contour between " + point_name(p) + " and " + point_name(q), {element_of(p), element_of(q)},
+                         *in_the_way);
     }
     // A segment along an edge lies on the border of both its triangles.
     const int start = 3 * triangle;

@@ -8,13 +8,13 @@
 namespace mrc {
 
 Contour checked_input(const Surface& surface, const Contour& contour, const Options& options, const Constraints& constraints,
-                      const Scales* scales) {
+                      const std::optional<Scales>& scales) {
     options.check();
     constraints.check(surface);
     Contour checked = checked_contour(surface, contour);
     check_graph_size(static_cast<double>(checked.points.size()), options.refinement);
-    if (!checked.closed && !constraints.region_density.empty()) {
-        throw InvalidInput("the region term needs a closed contour: an open one encloses nothing");
+    if (!checked.closed && constraints.has_region()) {
+        throw InvalidInput(ErrorCode::open_region, "the region term needs a closed contour: an open one encloses nothing");
     }
     if (scales) check_scales(surface, *scales);
     return checked;

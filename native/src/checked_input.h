@@ -11,6 +11,6 @@ namespace mrc {
 /// The contour, once all input is checked; a band has at least as many triangles as its contour has segments.
 /// @throws InvalidInput, TooLarge.
 Contour checked_input(const Surface& surface, const Contour& contour, const Options& options, const Constraints& constraints,
-                      const Scales* scales);
+                      const std::optional<Scales>& scales);
 
 }  // namespace mrc

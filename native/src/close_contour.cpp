@@ -6,6 +6,7 @@
 #include "contour_scales.h"
 #include "curvature_field.h"
 #include "distances.h"
+#include "element_names.h"
 #include "obstacles.h"
 #include "patch.h"
 
@@ -73,7 +74,8 @@ Limb limb_at(const Surface& surface, const std::vector<int>& chain) {
         weights[i + 1] += 0.5 * step;
         limb.share.push_back(limb.length += step);
     }
-    if (limb.length <= 0.0) throw InvalidInput("the chain to be closed has no length: all its vertices lie on one point");
+    if (limb.length <= 0.0)
+        throw InvalidInput(ErrorCode::no_length, "the chain to be closed has no length: all its vertices lie at one point");
     for (double& share : limb.share) share /= limb.length;
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
         const double step = limb.share[i + 1] - limb.share[i];
@@ -118,10 +120,13 @@ class ClosingSearch {
             if (vertex == goal) return path_to(place.previous);
             surface_.for_each_real_edge(vertex, [&](int neighbor, int) { relax(vertex, neighbor, entry.first); });
         }
-        throw InvalidInput("nothing leads from vertex " + std::to_string(start) + ", one end of the chain, round to vertex " +
-                           std::to_string(goal) +
-                           ", its other end: the surface does not turn away behind the chain, or borders, hidden or non-manifold "
-                           "faces are in the way; draw the chain on a limb, draw more of the loop, or reveal what is hidden");
+        throw InvalidInput(ErrorCode::no_way_round,
+                           "nothing leads from vertex " + std::to_string(start) + ", one end of the chain, around to vertex " +
+                               std::to_string(goal) +
+                               ", its other end: the surface does not turn away behind the chain, or borders, hidden or "
+                               "non-manifold faces are in the way; draw the chain on a limb, draw more of the loop, or reveal "
+                               "what is hidden",
+                           {Element::vertex(start), Element::vertex(goal)});
     }
 
   private:
@@ -183,7 +188,7 @@ class ClosingSearch {
         if (inner_.contains(to) || is_on_chain(from, to)) return;
         if (place_at(to).settled) return;
         const double through = cost + step_cost(from, to);
-        if (through < place_at(to).cost && obstacle(surface_, from, to).empty()) reach(to, through, from);
+        if (through < place_at(to).cost && !obstacle(surface_, from, to)) reach(to, through, from);
     }
 
     void reach(int vertex, double cost, int previous) {
@@ -205,8 +210,10 @@ std::vector<int> chain_vertices(const Contour& chain) {
     std::vector<int> vertices;
     for (const SurfacePoint& p : chain.points) {
         if (!p.is_vertex()) {
-            throw InvalidInput("the chain to be closed has a point inside edge (" + std::to_string(p.a) + ", " +
-                               std::to_string(p.b) + "): give one that runs along mesh edges");
+            throw InvalidInput(
+                ErrorCode::not_on_vertices,
+                "the chain to be closed has a point inside edge " + edge_name(p.a, p.b) + ": give one that runs along mesh edges",
+                {Element::edge(p.a, p.b)});
         }
         vertices.push_back(p.a);
     }
@@ -216,7 +223,7 @@ std::vector<int> chain_vertices(const Contour& chain) {
 }  // namespace
 
 Contour close_contour(const Surface& surface, const Contour& chain, const Progress& progress) {
-    if (chain.closed) throw InvalidInput("the contour to be closed is closed already: give an open chain");
+    if (chain.closed) throw InvalidInput(ErrorCode::not_open, "the contour to be closed is already closed: give an open chain");
     std::vector<int> vertices = chain_vertices(checked_contour(surface, chain));
     // Searched from the same end whichever way the chain is given, so that equal paths are decided alike.
     const bool turned = vertices.front() > vertices.back();

@@ -22,8 +22,15 @@ std::string numbered(const std::vector<int>& contours) {
     return words;
 }
 
-/// How far along the flow contours with the required elements get, in words.
-std::string where_it_stops(const ContourGraph& graph, const Constraints& constraints, const std::vector<int>& held_back_by) {
+std::vector<Element> elements_required_by(const Constraints& constraints) {
+    std::vector<Element> elements;
+    for (const int v : constraints.required_vertices) elements.push_back(Element::vertex(v));
+    for (const auto& [a, b] : constraints.required_edges) elements.push_back(Element::edge(a, b));
+    return elements;
+}
+
+/// Says how far along the flow contours with the required elements get.
+Infeasible infeasible(const ContourGraph& graph, const Constraints& constraints, const std::vector<int>& held_back_by) {
     const WeightedGraph& search = graph.search;
     std::vector<char> reached(search.node_count(), 0);
     for (const Terminal& s : search.sources) reached[s.node] = 1;
@@ -45,13 +52,14 @@ std::string where_it_stops(const ContourGraph& graph, const Constraints& constra
     }
     if (!held_back_by.empty()) message << ", with " << numbered(held_back_by) << " in the way";
     message << ". Widen the band, raise max_turn or drop a requirement";
-    return message.str();
+    return Infeasible(message.str(),
+                      farthest ? std::vector{Element::vertex(farthest->place.a)} : elements_required_by(constraints));
 }
 
 }  // namespace
 
 ContourOptimization::ContourOptimization(const Surface& surface, const Contour& contour, const Options& options,
-                                         const Constraints& constraints, const Scales* scales)
+                                         const Constraints& constraints, const std::optional<Scales>& scales)
     : surface_(surface),
       options_(options),
       phase_options_(options),
@@ -61,8 +69,8 @@ ContourOptimization::ContourOptimization(const Surface& surface, const Contour& 
       feasible_(has_required_elements(contour, constraints)) {
     context_ = stopwatch_.time(
         "curvature", [&] { return std::make_unique<SearchContext>(surface, contour, options, constraints.attractors, scales); });
-    if (!constraints_.region_density.empty() && options_.region_weight != 0.0) {
-        enclosed_ = enclosed_change(surface_, constraints_.region_density, context_->scales.given, given_);
+    if (constraints_.has_region() && options_.region_weight != 0.0) {
+        enclosed_ = enclosed_change(surface_, *constraints_.region_density, context_->scales.given, given_);
     }
     const Measure first = measure(surface_, context_->energy, given_, options_.refinement, enclosed_);
     result_.scales = context_->scales;
@@ -131,7 +139,7 @@ void ContourOptimization::search(Partition* partition, int number, const Beat& b
     });
     const RatioResult best = stopwatch_.time("ratio", [&] { return minimum_ratio(graph.search, search_options(beat)); });
     count(graph, best);
-    if (!feasible_ && !best.found) throw Infeasible(where_it_stops(graph, constraints_, result_.held_back_by));
+    if (!feasible_ && !best.found) throw infeasible(graph, constraints_, result_.held_back_by);
     const double before = feasible_ ? result_.objective : std::numeric_limits<double>::infinity();
     if (best.found) accept(trace_contour(graph, *patch_, best.nodes), region);
     searched_ |= best.found;
@@ -156,13 +164,21 @@ void ContourOptimization::prepare_curvature(const Beat& beat) const {
 Result ContourOptimization::finish() {
     if (!feasible_)
         throw Infeasible("the given contour lacks required elements, and " +
-                         (result_.reason.empty() ? "no iteration was asked for" : result_.reason));
+                             (result_.reason.empty() ? "no iteration was asked for" : result_.reason),
+                         elements_required_by(constraints_));
     if (searched_ && featureless()) explain_featureless();
     // What was won along mesh edges may be lost with the Steiner points of a last phase that found nothing.
     const bool lost = result_.status == Status::improved && !below(result_.objective, result_.initial_objective);
     if (result_.status == Status::improved && (lost || (searched_ && featureless()))) keep_given();
     if (lost) because(Reason::none_refined, "no better contour was found across faces");
     return result_;
+}
+
+void ContourOptimization::settle_where_given() {
+    result_.contour = given_;
+    result_.held_back_by.clear();
+    patch_.reset();
+    moving_ = moved_ = false;
 }
 
 Result ContourOptimization::cancelled() const {
@@ -194,8 +210,8 @@ RatioOptions ContourOptimization::search_options(const Beat& beat) const {
 }
 
 std::optional<EdgeForm> ContourOptimization::make_region_form(const Patch& patch, const Flow& flow) const {
-    if (constraints_.region_density.empty() || options_.region_weight == 0.0) return std::nullopt;
-    return region_form(surface_, patch, band_, flow, constraints_.region_density, enclosed_);
+    if (!constraints_.has_region() || options_.region_weight == 0.0) return std::nullopt;
+    return region_form(surface_, patch, band_, flow, *constraints_.region_density, enclosed_);
 }
 
 void ContourOptimization::accept(const Contour& found, const std::optional<EdgeForm>& region) {

@@ -52,7 +52,7 @@ class ContourOptimization {
   public:
     /// `contour` must be checked; surface, options and constraints must outlive the object.
     ContourOptimization(const Surface& surface, const Contour& contour, const Options& options, const Constraints& constraints,
-                        const Scales* scales);
+                        const std::optional<Scales>& scales);
 
     /// Iterations with one k, measured with its Steiner points: a segment of the history.
     void begin_phase(int steiner);
@@ -62,6 +62,8 @@ class ContourOptimization {
     /// Finds the best contour of the band and takes it where it is better than the one so far.
     void search(Partition* partition, int number, const Beat& beat);
     Result finish();
+    /// After an error: it goes back to its given place and stays there.
+    void settle_where_given();
     /// A cancelled call changes nothing.
     Result cancelled() const;
 

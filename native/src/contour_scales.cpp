@@ -54,7 +54,8 @@ double mean_edge_length(const Surface& surface, const Contour& contour) {
     lengths.erase(std::ranges::unique(lengths, {}, &std::pair<int, double>::first).begin(), lengths.end());
     double sum = 0.0;
     for (const auto& [edge, length] : lengths) sum += length;
-    if (!(sum > 0.0)) throw InvalidInput("every edge near the contour has length 0: there is nothing to measure");
+    if (!(sum > 0.0))
+        throw InvalidInput(ErrorCode::no_length, "every edge near the contour has length 0: there is nothing to measure");
     return sum / static_cast<double>(lengths.size());
 }
 
@@ -75,7 +76,7 @@ Scales contour_scales(const Surface& surface, const CurvatureField& field, doubl
     Scales scales;
     scales.h = h;
     scales.L0 = contour_length(surface, contour);
-    if (!(scales.L0 > 0.0)) throw InvalidInput("the contour has length 0: all its vertices lie at one point");
+    if (!(scales.L0 > 0.0)) throw InvalidInput(ErrorCode::no_length, "the contour has length 0: all its vertices lie at one point");
     scales.K = std::max(area > 0.0 ? weighted / area : 0.0, 0.01 / scales.L0);  // so that flat bands work
     if (options.feature_clamp && !features.empty()) scales.clamp = quantile(features, *options.feature_clamp);
     scales.kappa_0 = options.kappa0_factor * scales.K;

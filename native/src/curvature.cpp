@@ -18,13 +18,14 @@ double whole_mean_edge_length(const Surface& surface) {
         sum += (surface.position(surface.to(h)) - surface.position(surface.from(h))).norm();
         ++count;
     }
-    if (!(sum > 0.0)) throw InvalidInput("every edge of the surface has length 0: there is nothing to measure");
+    if (!(sum > 0.0))
+        throw InvalidInput(ErrorCode::no_length, "every edge of the surface has length 0: there is nothing to measure");
     return sum / count;
 }
 
 }  // namespace
 
-std::vector<VertexCurvature> curvature(const Surface& surface, const Options& options, const Scales* scales) {
+std::vector<VertexCurvature> curvature(const Surface& surface, const Options& options, const std::optional<Scales>& scales) {
     options.check();
     std::vector<VertexCurvature> result;
     if (surface.face_count() == 0) return std::vector<VertexCurvature>(surface.vertex_count());

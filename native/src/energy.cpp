@@ -167,7 +167,8 @@ Measure measure(const Surface& surface, const Energy& energy, const Contour& giv
         result.length += weights.denominator(in, out);
         bending += weights.bending(in, out);
     }
-    if (!(result.length > 0.0)) throw InvalidInput("the contour has length 0: all its vertices lie at one point");
+    if (!(result.length > 0.0))
+        throw InvalidInput(ErrorCode::no_length, "the contour has length 0: all its vertices lie at one point");
     result.ratio = result.numerator / result.length;
     const Objective objective = energy.objective();
     result.objective = objective.value(result.numerator, result.length);

@@ -8,12 +8,12 @@
 namespace mrc {
 
 Measure measure(const Surface& surface, const Contour& contour, const Options& options, const Constraints& constraints,
-                const Scales* scales) {
+                const std::optional<Scales>& scales) {
     const Contour checked = checked_input(surface, contour, options, constraints, scales);
     const SearchContext context(surface, checked, options, constraints.attractors, scales);
-    const bool region = scales && !constraints.region_density.empty() && options.region_weight != 0.0;
+    const bool region = scales && constraints.has_region() && options.region_weight != 0.0;
     return measure(surface, context.energy, checked, options.refinement,
-                   region ? enclosed_change(surface, constraints.region_density, scales->given, checked) : 0.0);
+                   region ? enclosed_change(surface, *constraints.region_density, scales->given, checked) : 0.0);
 }
 
 }  // namespace mrc

@@ -27,26 +27,31 @@ bool usable_face(const Surface& surface, int face) {
     return vertices.size() == 3 || !has_shared_diagonal(surface, face);
 }
 
-std::string obstacle(const Surface& surface, int halfedge) {
-    if (halfedge == Surface::border) return "on the border of the mesh";
-    if (halfedge == Surface::irregular) return "on an edge of more than two faces, or of two whose normals disagree";
+std::optional<Obstacle> obstacle(const Surface& surface, int halfedge) {
+    if (halfedge == Surface::border) return Obstacle{ErrorCode::on_border, "on the border of the mesh", {}};
+    if (halfedge == Surface::irregular)
+        return Obstacle{ErrorCode::non_manifold, "on an edge of more than two faces, or of two whose normals disagree", {}};
     const int face = surface.halfedge_face(halfedge);
-    if (surface.hidden(face)) return "beside the hidden face " + std::to_string(face);
+    if (surface.hidden(face))
+        return Obstacle{ErrorCode::hidden_face, "beside the hidden face " + std::to_string(face), Element::face(face)};
     for (const int v : surface.face(face)) {
-        if (!surface.regular(v))
-            return "beside vertex " + std::to_string(v) + ", which is non-manifold or has faces whose normals disagree";
+        if (surface.regular(v)) continue;
+        return Obstacle{ErrorCode::non_manifold,
+                        "beside vertex " + std::to_string(v) + ", which is non-manifold or has faces whose normals disagree",
+                        Element::vertex(v)};
     }
-    if (!usable_face(surface, face))
-        return "beside face " + std::to_string(face) + ", two opposite corners of which another edge or face joins too";
-    return {};
+    if (usable_face(surface, face)) return std::nullopt;
+    return Obstacle{ErrorCode::non_manifold,
+                    "beside face " + std::to_string(face) + ", two opposite corners of which another edge or face also joins",
+                    Element::face(face)};
 }
 
-std::string obstacle(const Surface& surface, int a, int b) {
+std::optional<Obstacle> obstacle(const Surface& surface, int a, int b) {
     const int forward = surface.find_halfedge(a, b), backward = surface.find_halfedge(b, a);
     const int halfedge = forward >= 0 ? forward : backward, twin = surface.twin(halfedge);
     if (twin < 0) return obstacle(surface, twin);
-    const std::string left = obstacle(surface, halfedge), right = obstacle(surface, twin);
-    return left.empty() || right.empty() ? std::string() : left;
+    const std::optional<Obstacle> left = obstacle(surface, halfedge), right = obstacle(surface, twin);
+    return left && right ? left : std::nullopt;
 }
 
 }  // namespace mrc

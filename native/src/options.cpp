@@ -18,7 +18,7 @@ void require(bool valid, const char* name, double value, const char* range) {
     std::ostringstream message;
     message << "option " << name << " is " << value << ": it must be " << range;
     if (std::abs(value) > largest) message << ", and no larger than " << largest;
-    throw InvalidInput(message.str());
+    throw InvalidInput(ErrorCode::invalid_option, message.str());
 }
 
 }  // namespace
@@ -47,6 +47,7 @@ void Options::check() const {
     require(!min_salience || usable(*min_salience), "min_salience", min_salience.value_or(0.0), "a number, or none");
     if (length_bias > 0.0 && (length_measure == LengthMeasure::edges) != (denominator == Denominator::arcs)) {
         throw InvalidInput(
+            ErrorCode::invalid_option,
             "with a length_bias, length_measure and denominator go together: 'arc' with 'length', or 'edges' with 'arcs'");
     }
     require(refinement >= 0, "refinement", refinement, "0 or more");

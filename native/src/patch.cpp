@@ -110,14 +110,15 @@ bool has_neighbor_along_edges(const Surface& surface, const Contour& contour) {
     const std::vector<int> snapped = snapped_contour(surface, contour);
     const std::size_t count = snapped.size();
     for (std::size_t i = 0; i + (contour.closed ? 0 : 1) < count; ++i) {
-        if (!obstacle(surface, snapped[i], snapped[(i + 1) % count]).empty()) return false;
+        if (obstacle(surface, snapped[i], snapped[(i + 1) % count])) return false;
     }
     return !snapped.empty();
 }
 
 Patch make_patch(const Surface& surface, const Contour& contour, std::optional<int> rings) {
     if (!has_neighbor_along_edges(surface, contour)) {
-        throw InvalidInput("no simple contour along mesh edges lies beside the given one, so that no band can grow from it");
+        throw InvalidInput(ErrorCode::no_neighbour,
+                           "no simple contour along mesh edges lies beside the given one, so that no band can grow from it");
     }
     PatchBuilder builder(surface, contour);
     builder.add_rings(rings);

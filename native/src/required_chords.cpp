@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "required_chords.h"
 
+#include "element_names.h"
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -44,8 +46,10 @@ class RequiredChords {
         const auto found = ambient_.local.find(vertex);
         if (found != ambient_.local.end()) return ambient_.point_of_vertex[found->second];
         const char* others = input_.exclusion.refused.empty() ? "" : ", which other contours may keep back";
-        throw InvalidInput("required vertex " + std::to_string(vertex) + " lies outside the band" + others +
-                           ": widen the band or drop the requirement");
+        throw InvalidInput(ErrorCode::outside_band,
+                           "required vertex " + std::to_string(vertex) + " lies outside the band" + others +
+                               ": widen the band or drop the requirement",
+                           {Element::vertex(vertex)});
     }
 
     void require_edge(int a, int b) {
@@ -54,15 +58,18 @@ class RequiredChords {
             patch_.mesh.find_halfedge(PatchMesh::VertexHandle(ambient_.local.at(a)), PatchMesh::VertexHandle(ambient_.local.at(b)));
         const int edge = h.is_valid() ? h.idx() / 2 : -1;
         if (edge < 0 || !input_.band.edge[edge] || patch_.diagonal[edge] || patch_.border_edge[edge]) {
-            throw InvalidInput("required edge (" + std::to_string(a) + ", " + std::to_string(b) +
-                               ") is no edge inside the band: widen the band or drop the requirement");
+            throw InvalidInput(
+                ErrorCode::outside_band,
+                "required edge " + edge_name(a, b) + " is not an edge inside the band: widen the band or drop the requirement",
+                {Element::edge(a, b)});
         }
         elements_.require(place_of(points_, p));
         elements_.require(place_of(points_, q));
         std::vector<int> own = segments_of_edge(edge);
         if (!std::ranges::all_of(own, [&](int s) { return ambient_.segments[s].walkable; })) {
-            throw InvalidInput("required edge (" + std::to_string(a) + ", " + std::to_string(b) +
-                               ") touches another contour or its band: drop the requirement");
+            throw InvalidInput(ErrorCode::touches_neighbour,
+                               "required edge " + edge_name(a, b) + " touches another contour or its band: drop the requirement",
+                               {Element::edge(a, b)});
         }
         for (const DirectedSegment& d : directed_) {
             if (std::ranges::find(own, d.segment) != own.end()) elements_.require(span(d), own);

@@ -7,7 +7,7 @@
 namespace mrc {
 
 SearchSpace search_space(const Surface& surface, const Contour& contour, const Options& options, const Constraints& constraints,
-                         const Scales* scales) {
+                         const std::optional<Scales>& scales) {
     const Contour checked = checked_input(surface, contour, options, constraints, scales);
     const SearchContext context(surface, checked, options, constraints.attractors, scales);
     SearchSpace space;

@@ -21,6 +21,6 @@ struct SearchSpace {
 };
 /// @throws what `optimize` does.
 SearchSpace search_space(const Surface& surface, const Contour& contour, const Options& options = {},
-                         const Constraints& constraints = {}, const Scales* scales = nullptr);
+                         const Constraints& constraints = {}, const std::optional<Scales>& scales = std::nullopt);
 
 }  // namespace mrc

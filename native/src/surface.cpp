@@ -78,8 +78,9 @@ void Surface::triangulate(const SurfaceArrays& arrays) {
     const size_t count = static_cast<size_t>(first_triangle(face_count()));
     const std::span<const int32_t> given = arrays.triangles;
     if (!given.empty() && given.size() != 3 * count) {
-        throw InvalidInput("triangles has " + std::to_string(given.size()) + " entries; n - 2 triples for every face of n make " +
-                           std::to_string(3 * count));
+        throw InvalidInput(ErrorCode::wrong_size, "triangles has " + std::to_string(given.size()) +
+                                                      " entries; n - 2 triples for every face of n make " +
+                                                      std::to_string(3 * count));
     }
     diagonal_.resize(3 * count);
     twins_.assign(3 * count, border);
@@ -132,8 +133,9 @@ void Surface::pair_diagonals() {
         if (sides.read(polygon, triangles, first)) {
             sides.for_each_diagonal(pair);
         } else {
-            complaints.add(
-                [&] { return "the triangles of " + element_name("face", f) + " do not make up its polygon: " + sides.fault(); });
+            complaints.add(ErrorCode::invalid_triangles, Element::face(f), [&] {
+                return "the triangles of " + element_name("face", f) + " do not make up its polygon: " + sides.fault();
+            });
         }
     }
     complaints.raise();

@@ -15,8 +15,8 @@ std::string range_text(int count) { return count == 0 ? "there are none" : "they
 
 std::vector<int> triangle_offsets(size_t corner_count) {
     if (corner_count % 3 != 0) {
-        throw InvalidInput("face_vertices has " + std::to_string(corner_count) +
-                           " entries and face_offsets is empty; triangles need a multiple of three");
+        throw InvalidInput(ErrorCode::wrong_size, "face_vertices has " + std::to_string(corner_count) +
+                                                      " entries and face_offsets is empty; triangles need a multiple of three");
     }
     std::vector<int> offsets(corner_count / 3 + 1);
     for (size_t face = 0; face < offsets.size(); ++face) offsets[face] = static_cast<int>(3 * face);
@@ -58,13 +58,15 @@ bool triangles_are_sound(std::span<const int> face_vertices, int face_count, int
 
 void require_size(size_t size, const char* what) {
     if (size > static_cast<size_t>(std::numeric_limits<int>::max()) / 3) {
-        throw InvalidInput(std::string(what) + " has " + std::to_string(size) + " entries; that is too many for 32-bit ids");
+        throw InvalidInput(ErrorCode::wrong_size,
+                           std::string(what) + " has " + std::to_string(size) + " entries; that is too many for 32-bit ids");
     }
 }
 
 std::vector<Vec3> copy_positions(std::span<const double> values) {
     if (values.size() % 3 != 0) {
-        throw InvalidInput("positions has " + std::to_string(values.size()) + " numbers; every vertex needs three");
+        throw InvalidInput(ErrorCode::wrong_size,
+                           "positions has " + std::to_string(values.size()) + " numbers; every vertex needs three");
     }
     require_size(values.size() / 3, "positions");
     std::vector<Vec3> positions;
@@ -74,10 +76,10 @@ std::vector<Vec3> copy_positions(std::span<const double> values) {
         positions.emplace_back(values[i], values[i + 1], values[i + 2]);
         const Vec3& p = positions.back();
         if ((p.array().abs() <= farthest).all()) continue;
-        complaints.add([&] {
+        complaints.add(ErrorCode::not_finite, Element::vertex(static_cast<int>(i / 3)), [&] {
             const std::string where = element_name("vertex", static_cast<int64_t>(i / 3));
             if (!p.allFinite()) return where + " has a position that is not finite";
-            return where + " has a coordinate beyond 1e50, whose powers are no numbers any more: scale the mesh down";
+            return where + " has a coordinate beyond 1e50, which is too large to compute with: scale the mesh down";
         });
     }
     complaints.raise();
@@ -87,15 +89,16 @@ std::vector<Vec3> copy_positions(std::span<const double> values) {
 std::vector<int> copy_offsets(std::span<const int32_t> offsets, size_t corner_count) {
     if (offsets.empty()) return triangle_offsets(corner_count);
     if (offsets.front() != 0 || offsets.back() != static_cast<int>(corner_count)) {
-        throw InvalidInput("face_offsets must start with 0, rise, and end with the size of face_vertices (" +
-                           std::to_string(corner_count) + "); it starts with " + std::to_string(offsets.front()) +
-                           " and ends with " + std::to_string(offsets.back()));
+        throw InvalidInput(ErrorCode::wrong_size, "face_offsets must start with 0, rise, and end with the size of face_vertices (" +
+                                                      std::to_string(corner_count) + "); it starts with " +
+                                                      std::to_string(offsets.front()) + " and ends with " +
+                                                      std::to_string(offsets.back()));
     }
     Complaints complaints;
     for (size_t face = 0; face + 1 < offsets.size(); ++face) {
         const int64_t n = int64_t{offsets[face + 1]} - offsets[face];
         if (n >= 3) continue;
-        complaints.add([&] {
+        complaints.add(ErrorCode::invalid_face, Element::face(static_cast<int>(face)), [&] {
             const std::string where = element_name("face", static_cast<int64_t>(face));
             if (n >= 0) return where + " has " + std::to_string(n) + " vertices, fewer than three";
             return "face_offsets must start with 0, rise, and end with the size of face_vertices; it falls from " +
@@ -115,11 +118,12 @@ void check_faces(std::span<const int> face_offsets, std::span<const int> face_ve
         const auto polygon = face_vertices.subspan(face_offsets[face], face_offsets[face + 1] - face_offsets[face]);
         const auto bad = std::ranges::find_if(polygon, [&](int v) { return outside(v, vertex_count); });
         if (bad != polygon.end()) {
-            complaints.add([&] {
+            complaints.add(ErrorCode::out_of_range, Element::face(face), [&] {
                 return element_name("face", face) + " uses vertex " + std::to_string(*bad) + "; " + range_text(vertex_count);
             });
         } else if (const int v = repeated_vertex(polygon, scratch); v >= 0) {
-            complaints.add([&] { return element_name("face", face) + " repeats vertex " + std::to_string(v); });
+            complaints.add(ErrorCode::invalid_face, Element::face(face),
+                           [&] { return element_name("face", face) + " repeats vertex " + std::to_string(v); });
         }
     }
     complaints.raise();
@@ -130,7 +134,8 @@ std::vector<uint8_t> mark_hidden(std::span<const int32_t> hidden_faces, int face
     Complaints complaints;
     for (const int face : hidden_faces) {
         if (outside(face, face_count)) {
-            complaints.add([&] { return "hidden face " + std::to_string(face) + " is no face; " + range_text(face_count); });
+            complaints.add(ErrorCode::out_of_range, Element::face(face),
+                           [&] { return "hidden face " + std::to_string(face) + " does not exist; " + range_text(face_count); });
         } else {
             hidden[face] = 1;
         }

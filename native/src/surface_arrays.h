@@ -14,8 +14,10 @@ namespace mrc {
 class Complaints {
   public:
     template <class Text>
-    void add(Text&& text) {
+    void add(ErrorCode code, const Element& element, Text&& text) {
         if (++count_ > shown) return;
+        if (count_ == 1) code_ = code;
+        elements_.push_back(element);
         if (!message_.empty()) message_ += "; ";
         message_ += text();
     }
@@ -23,12 +25,14 @@ class Complaints {
     void raise() const {
         if (count_ == 0) return;
         const std::string more = count_ > shown ? "; and " + std::to_string(count_ - shown) + " more" : "";
-        throw InvalidInput(message_ + more);
+        throw InvalidInput(code_, message_ + more, elements_);
     }
 
   private:
     static constexpr size_t shown = 3;
     size_t count_ = 0;
+    ErrorCode code_{};               // of the first
+    std::vector<Element> elements_;  // those that are shown
     std::string message_;
 };
 

@@ -136,8 +136,8 @@ void check_result(const Surface& surface, const Contour& given, const Options& o
     if (result.status == Status::improved) require(result.objective < result.initial_objective, "improved is better than given");
     require(result.lower_bound <= result.objective, "the bound is a bound");
     require(meets(result.contour, constraints), "required elements are passed");
-    if (!constraints.region_density.empty()) return;  // what is enclosed counts from the contour as given
-    const Measure measured = measure(surface, result.contour, options, constraints, &result.scales);
+    if (constraints.has_region()) return;  // what is enclosed counts from the contour as given
+    const Measure measured = measure(surface, result.contour, options, constraints, result.scales);
     require(near(measured.ratio, result.ratio, result.scales.K), "measuring the result gives its ratio");
 }
 

@@ -72,7 +72,7 @@ mrc::Constraints generate_constraints(FuzzedDataProvider& data, const mrc::Gener
         constraints.attractors.push_back({data.ConsumeIntegralInRange(0, last), between(data, 1e-3, 20.0), between(data, -3.0, 3.0),
                                           maybe(data, between(data, 1e-3, 10.0))});
     });
-    if (data.ConsumeBool()) constraints.region_density = density;
+    if (data.ConsumeBool()) constraints.region_density = std::make_shared<const std::vector<double>>(density);
     return constraints;
 }
 

@@ -104,7 +104,7 @@ using Job = std::function<std::string(const Surface&, int threads)>;
 
 std::string one(const Surface& surface, int refinement, double stop_at) {
     Listener listener(stop_at);
-    const Result result = optimize(surface, loop_near(refinement), options(refinement, 1), {}, nullptr, listener.progress());
+    const Result result = optimize(surface, loop_near(refinement), options(refinement, 1), {}, std::nullopt, listener.progress());
     return (Bytes() << result << listener.verdict()).text;
 }
 

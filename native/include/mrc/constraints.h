@@ -4,15 +4,15 @@
 #include <mrc/surface.h>
 
 #include <array>
+#include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace mrc {
 
 /// A soft constraint (4.5): a place that contours are drawn to, or from where strength is negative.
 struct Attractor {
-    int vertex = -1;
+    int vertex = no_element;
     double radius = 0.0;          ///< along the surface in the mesh's unit, above 0; nothing is felt beyond
     double strength = 1.0;        ///< of the pull, in units of K
     std::optional<double> sigma;  ///< of its Gaussian; none: half the radius
@@ -24,7 +24,10 @@ struct Constraints {
     std::vector<std::array<int, 2>> required_edges;  ///< real edges that it must run along
     std::vector<Attractor> attractors;
     std::vector<std::array<int, 2>> barriers;  ///< real edges that neither band nor contour crosses
-    std::span<const double> region_density;    ///< of each face, per area, for the region term (6.1.2); empty: none; not copied
+    /// Of each face, per area, for the region term (6.1.2); null or empty: none. Shared, because many contours may have the same one.
+    std::shared_ptr<const std::vector<double>> region_density;
+
+    bool has_region() const { return region_density && !region_density->empty(); }
 
     /// @throws InvalidInput that names the element: out of range, no real edge, radius or sigma not above 0.
     void check(const Surface& surface) const;

@@ -5,6 +5,7 @@
 #include <mrc/scales.h>
 #include <mrc/surface.h>
 
+#include <optional>
 #include <vector>
 
 namespace mrc {
@@ -20,6 +21,7 @@ struct VertexCurvature {
 
 /// The curvatures at all vertices; without scales, h is the whole surface's mean edge length.
 /// @throws InvalidInput for options out of range and where every edge has length 0.
-std::vector<VertexCurvature> curvature(const Surface& surface, const Options& options = {}, const Scales* scales = nullptr);
+std::vector<VertexCurvature> curvature(const Surface& surface, const Options& options = {},
+                                       const std::optional<Scales>& scales = std::nullopt);
 
 }  // namespace mrc

@@ -6,6 +6,8 @@
 #include <mrc/scales.h>
 #include <mrc/surface.h>
 
+#include <optional>
+
 namespace mrc {
 
 /// What a contour costs (eq. 3.3). Lengths are in the mesh's unit, ratios in one over it.
@@ -21,6 +23,6 @@ struct Measure {
 /// The contour's ratio, without optimizing. Of the constraints, the attractors and the region term weigh.
 /// @throws InvalidInput and TooLarge as `optimize` does; barriers do not matter.
 Measure measure(const Surface& surface, const Contour& contour, const Options& options = {}, const Constraints& constraints = {},
-                const Scales* scales = nullptr);
+                const std::optional<Scales>& scales = std::nullopt);
 
 }  // namespace mrc

@@ -2,6 +2,7 @@
 /// All that a user of the library calls.
 #pragma once
 
+#include <mrc/check_contour.h>
 #include <mrc/close_contour.h>
 #include <mrc/constraints.h>
 #include <mrc/curvature.h>

@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace mrc {
@@ -74,7 +75,7 @@ struct Result {
 /// @throws Infeasible where no contour of the band has all required elements.
 /// @throws TooLarge where the search would take more memory than there is, or more arcs than can be counted.
 Result optimize(const Surface& surface, const Contour& contour, const Options& options = {}, const Constraints& constraints = {},
-                const Scales* scales = nullptr, const Progress& progress = {});
+                const std::optional<Scales>& scales = std::nullopt, const Progress& progress = {});
 
 /// One of several contours, with what is its own.
 struct Task {
@@ -87,8 +88,21 @@ struct Task {
 ///
 /// They move together, iteration by iteration: each has the faces that are nearer to it than to any other, and what two bands have
 /// in common is closed to both. The results have the order of the tasks, but depend neither on it nor on the number of threads.
-/// @throws as `optimize` does; the message begins with the contour's place in the list.
+/// @throws as `optimize` does, of several contours in error for the first by its place; the error has that place, and of several
+/// contours the message begins with it.
 std::vector<Result> optimize_all(const Surface& surface, std::span<const Task> tasks, const Options& options = {},
                                  const Progress& progress = {});
+
+/// What one of several contours gets. `InvalidInput::raise` throws TooLarge and Infeasible as such.
+using Outcome = std::variant<Result, InvalidInput>;
+
+/// The same, but a contour in error gets its error, which has its place, and the others are optimized all the same.
+///
+/// A contour that is refused at first stays where it is: where it runs along real edges, these are barriers for all others. One that
+/// crosses them already just finds no room there, and across faces nothing is kept from it. A contour whose search fails goes back
+/// to its given place, of which all others keep clear from the first. Without errors the results are those of `optimize_all`.
+/// @throws InvalidInput for options out of range only.
+std::vector<Outcome> optimize_each(const Surface& surface, std::span<const Task> tasks, const Options& options = {},
+                                   const Progress& progress = {});
 
 }  // namespace mrc

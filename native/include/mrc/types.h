@@ -11,10 +11,12 @@ namespace mrc {
 
 using Vec3 = Eigen::Vector3d;
 
+inline constexpr int no_element = -1;  ///< in the place of an id: there is none
+
 /// The point (1 - t) a + t b of the mesh edge ab; a vertex v is (v, v, 0).
 struct SurfacePoint {
-    int a = -1;
-    int b = -1;
+    int a = no_element;
+    int b = no_element;
     double t = 0.0;
 
     bool is_vertex() const { return a == b; }
