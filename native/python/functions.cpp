@@ -280,10 +280,10 @@ void bind_functions(py::module_& module) {
         "scales: those of an earlier result, to go on from it.\n"
         "progress: called with the share done, from 0 to 1, three phases an iteration, and in long phases again every few\n"
         "milliseconds; returning False cancels, an exception passes through.\n"
-        "Returns a Result. Raises InvalidInput, a ValueError, naming the elements where the contour is not simple, not inside the "
-        "mesh or crosses\n"
-        "a barrier; of these Infeasible, where no contour of the band has all required elements, and TooLarge, where the search\n"
-        "would take more memory than there is. Ids that are no whole numbers are a TypeError.");
+        "Returns a Result. Raises InvalidInput, a ValueError that names the elements, where the contour is not simple, not inside\n"
+        "the mesh or crosses a barrier; of these Infeasible, where no contour of the band has all required elements, and "
+        "TooLarge,\n"
+        "where the search would take more memory than there is. Ids that are no whole numbers are a TypeError.");
     module.def(
         "optimize_all", &optimize_all, py::arg("surface"), py::arg("contours"), py::arg("closed") = true, defaults,
         py::arg("required_vertices") = nothing, py::arg("required_edges") = nothing, py::arg("attractors") = nothing,
@@ -300,11 +300,10 @@ void bind_functions(py::module_& module) {
         "and the others are optimized all the same. Where it runs along real edges they keep clear of it.\n"
         "Returns a list of Results; held_back_by says which other contours kept one's band from growing. Raises what optimize\n"
         "raises, for the first contour in error: the attribute contour is its place in the list.");
-    module.def(
-        "check_contour", &check_contour, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true,
-        py::arg("barriers") = nothing, py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
-        "Why optimize would refuse a contour, without a search: an InvalidInput that is not raised, or None. Arguments are those\n"
-        "of optimize. Required elements that cannot be reached are found by the search only.");
+    module.def("check_contour", &check_contour, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true,
+               py::arg("barriers") = nothing, py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
+               "Why optimize would refuse a contour, without a search: an InvalidInput that is not raised, or None. Arguments are\n"
+               "those of optimize. Required elements that cannot be reached are found by the search only.");
     module.def(
         "measure", &measure, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true, defaults,
         py::arg("attractors") = nothing, py::arg("region_density") = py::none(), py::arg("scales") = py::none(),

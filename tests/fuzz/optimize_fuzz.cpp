@@ -3,6 +3,7 @@
 #include "checks.h"
 #include "generated_mesh.h"
 
+#include <mrc/check_contour.h>
 #include <mrc/close_contour.h>
 
 #include <algorithm>
@@ -102,6 +103,34 @@ mrc::Progress generate_progress(int calls) {
     };
 }
 
+/// check_contour refuses what optimize refuses before its first iteration.
+void check_refusals(const Surface& surface, const std::vector<Task>& tasks) {
+    Options still;
+    still.iterations = 0;
+    std::vector<Task> bare;
+    for (const Task& task : tasks) {
+        bare.push_back({task.contour, {}, std::nullopt});
+        bare.back().constraints.barriers = task.constraints.barriers;
+    }
+    const std::vector<mrc::Outcome> outcomes = mrc::optimize_each(surface, bare, still);
+    for (std::size_t i = 0; i < bare.size(); ++i) {
+        const bool refused = mrc::check_contour(surface, bare[i].contour, bare[i].constraints.barriers).has_value();
+        mrc::require(refused == std::holds_alternative<mrc::InvalidInput>(outcomes[i]), "both refuse the same contours");
+    }
+}
+
+/// Errors of some contours keep the others neither from being optimized nor apart.
+void check_each(const Surface& surface, const std::vector<Task>& tasks, const Options& options) {
+    const std::vector<mrc::Outcome> outcomes = mrc::optimize_each(surface, tasks, options);
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+        if (const auto* error = std::get_if<mrc::InvalidInput>(&outcomes[i])) {
+            mrc::require(error->contour() == static_cast<int>(i), "an error has its contour's place");
+        } else {
+            mrc::check_result(surface, tasks[i].contour, options, tasks[i].constraints, std::get<mrc::Result>(outcomes[i]));
+        }
+    }
+}
+
 void run(FuzzedDataProvider& data) {
     const mrc::GeneratedMesh mesh = mrc::generate_mesh(data);
     const Surface surface = mesh.surface();
@@ -120,7 +149,13 @@ void run(FuzzedDataProvider& data) {
     std::vector<Task> tasks;
     for (const Contour& contour : contours)
         tasks.push_back({contour, tasks.empty() ? constraints : mrc::Constraints{}, std::nullopt});
-    const auto results = mrc::optimize_all(surface, tasks, options, generate_progress(data.ConsumeIntegralInRange(0, 40)));
+    check_refusals(surface, tasks);
+    std::vector<mrc::Result> results;
+    try {
+        results = mrc::optimize_all(surface, tasks, options, generate_progress(data.ConsumeIntegralInRange(0, 40)));
+    } catch (const mrc::InvalidInput&) {
+        return check_each(surface, tasks, options);
+    }
     mrc::require(results.size() == tasks.size(), "each contour has its result");
     for (std::size_t i = 0; i < results.size(); ++i) {
         mrc::check_result(surface, tasks[i].contour, options, tasks[i].constraints, results[i]);

@@ -72,7 +72,9 @@ std::vector<Fault> faults() {
          [](auto&, Task& t, auto&) { t.constraints.required_vertices = {99999}; },
          {Element::vertex(99999)}},
         {ErrorCode::invalid_attractor,
-         [](auto&, Task& t, auto&) { t.constraints.attractors = {{.vertex = 5, .radius = 0.0}}; },
+         [](auto&, Task& t, auto&) {
+             t.constraints.attractors = {{5, 0.0, 1.0, std::nullopt}};
+         },
          {Element::vertex(5)}},
         {ErrorCode::wrong_size, [density](auto&, Task& t, auto&) { t.constraints.region_density = density(3, 1.0); }, {}},
         {ErrorCode::not_finite,
@@ -113,6 +115,7 @@ TEST(Errors, have_their_codes_and_name_their_elements) {
         EXPECT_EQ(error.elements(), fault.elements) << error.what();
         EXPECT_EQ(error.contour(), std::nullopt);
         EXPECT_EQ(error.sentence(), error.what());
+        if (fault.code == ErrorCode::too_short || fault.code == ErrorCode::infeasible) continue;  // all there are
         for (const Element& element : error.elements())
             EXPECT_NE(error.sentence().find(std::to_string(element.ids[0])), std::string::npos) << error.what();
     }
