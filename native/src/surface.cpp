@@ -214,7 +214,7 @@ std::span<const int> Surface::outgoing(int vertex) const {
 int Surface::find_halfedge(int a, int b) const {
     const std::span<const int> candidates = outgoing(a);
     const auto found = std::ranges::find_if(candidates, [&](int h) { return to(h) == b && !diagonal(h); });
-    return found == candidates.end() ? -1 : *found;
+    return found == candidates.end() ? no_element : *found;
 }
 
 }  // namespace mrc

@@ -27,6 +27,8 @@ struct SurfaceArrays {
 /// *diagonal* where only the triangulation put it. Borders, edges of three faces or of disagreeing winding, and vertices with
 /// more than one fan are legal: they merely stop a band.
 ///
+/// Several threads may use a surface and its copies at once: nothing that they see changes after the constructor.
+///
 /// @throws InvalidInput for indices out of range, positions that are not finite or beyond 1e50, faces with fewer than three or with
 /// repeated vertices, and triangles that are no triangulation of their faces. The message names the elements.
 class Surface {
@@ -69,13 +71,13 @@ class Surface {
     /// True where the faces round the vertex form one fan, open or closed, of edges with agreeing winding.
     bool regular(int vertex) const { return regular_[vertex] != 0; }
 
-    /// A real half-edge from a to b, or -1: the first by index where there are several.
+    /// A real half-edge from a to b, or `no_element`: the first by index where there are several.
     int find_halfedge(int a, int b) const;
     /// True where a and b are the ends of a real edge, in whichever direction its faces run.
     bool real_edge(int a, int b) const { return find_halfedge(a, b) >= 0 || find_halfedge(b, a) >= 0; }
 
     /// The area-weighted mean distance of the face centroids of a vertex's connected component from their centroid. The first call
-    /// makes it for all components.
+    /// makes it for all components, also where several threads call it at once.
     double average_radius(int vertex) const;
 
     /// Calls visit(neighbor, edge) for the real edges at a vertex; an irregular edge may come more than once.
