@@ -65,7 +65,6 @@ def test_wheel_page_examples_do_what_they_say(run):
     assert 24 * 12 + 5 in names["across"].vertices
 
 
-@pytest.mark.skipif(not hasattr(mrc, "check_contour"), reason="this build has no check_contour")
 def test_wheel_page_examples_of_settings_and_errors_run(run, capsys):
     run(WHEEL_PAGE, examples(WHEEL_PAGE))
     said = re.search(r"# (\[.*\])\n", examples(WHEEL_PAGE)[-1])
