@@ -223,7 +223,7 @@ std::vector<int> chain_vertices(const Contour& chain) {
 }  // namespace
 
 Contour close_contour(const Surface& surface, const Contour& chain, const Progress& progress) {
-    if (chain.closed) throw InvalidInput(ErrorCode::not_open, "the contour to be closed is already closed: give an open chain");
+    if (chain.closed) throw InvalidInput(ErrorCode::not_open, "the contour to be closed is closed already: give an open chain");
     std::vector<int> vertices = chain_vertices(checked_contour(surface, chain));
     // Searched from the same end whichever way the chain is given, so that equal paths are decided alike.
     const bool turned = vertices.front() > vertices.back();

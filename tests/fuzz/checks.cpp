@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "checks.h"
 
+#include "required_elements.h"
+
+#include <mrc/measure.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -90,7 +94,7 @@ void check_surface(const Surface& surface) {
     }
 }
 
-void check_contour(const Surface& surface, const Contour& contour) {
+void check_simple(const Surface& surface, const Contour& contour) {
     std::set<std::pair<Pair, double>> seen;
     for (const SurfacePoint& p : contour.points) {
         require(0 <= p.a && p.a < surface.vertex_count() && 0 <= p.b && p.b < surface.vertex_count(), "vertices exist");
@@ -126,7 +130,7 @@ bool apart(const Contour& one, const Contour& two) {
 void check_result(const Surface& surface, const Contour& given, const Options& options, const Constraints& constraints,
                   const Result& result) {
     check_numbers(result);
-    check_contour(surface, result.contour);
+    check_simple(surface, result.contour);
     require(result.contour.closed == given.closed, "closed stays closed");
     if (result.status == Status::unchanged || result.status == Status::cancelled)
         require(result.contour == given, "unchanged is the given contour");
@@ -135,7 +139,7 @@ void check_result(const Surface& surface, const Contour& given, const Options& o
             "what is unchanged has a reason");
     if (result.status == Status::improved) require(result.objective < result.initial_objective, "improved is better than given");
     require(result.lower_bound <= result.objective, "the bound is a bound");
-    require(meets(result.contour, constraints), "required elements are passed");
+    require(has_required_elements(result.contour, constraints), "required elements are passed");
     if (constraints.has_region()) return;  // what is enclosed counts from the contour as given
     const Measure measured = measure(surface, result.contour, options, constraints, result.scales);
     require(near(measured.ratio, result.ratio, result.scales.K), "measuring the result gives its ratio");

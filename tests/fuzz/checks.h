@@ -12,7 +12,7 @@ void require(bool holds, const char* law);
 void check_surface(const Surface& surface);
 
 /// Checks that a contour is on the surface and does not meet or cross itself, using only the triangles.
-void check_contour(const Surface& surface, const Contour& contour);
+void check_simple(const Surface& surface, const Contour& contour);
 
 /// Whether two contours have no point in common.
 bool apart(const Contour& one, const Contour& two);

@@ -143,7 +143,7 @@ void run(FuzzedDataProvider& data) {
     if (contours.empty()) return;
     if (!contours[0].closed && data.ConsumeBool()) {
         contours[0] = mrc::close_contour(surface, contours[0]);
-        mrc::check_contour(surface, contours[0]);
+        mrc::check_simple(surface, contours[0]);
     }
     if (data.ConsumeBool()) contours.resize(1);
     std::vector<Task> tasks;
