@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What needs no Blender: settings, networks, messages and the search. Imports nothing of mesh/, ui/ or bpy."""
+"""Everything that does not need Blender: settings, networks, messages and the search. Imports no mesh/, ui/ or bpy."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The chains into which the marked edges of a mesh fall between their junctions. Needs no Blender."""
+"""Divides the marked edges of a mesh into chains between junctions. Does not need Blender."""
 
 from collections import defaultdict
 from dataclasses import dataclass
@@ -13,10 +13,10 @@ from .topology import Topology
 class Chain:
     """A piece of a network between two junctions, or a closed loop."""
 
-    vertices: np.ndarray  # in order; a closed one does not repeat its first
+    vertices: np.ndarray  # in order; a closed chain does not repeat its first vertex
     closed: bool
-    chosen: bool  # may move
-    required: tuple = ()  # vertices that it must keep, besides the ends that it shares with others
+    chosen: bool  # whether it may move
+    required: tuple = ()  # vertices that it must keep, besides the ends that it shares with other chains
 
     @property
     def edge_count(self):
@@ -24,13 +24,13 @@ class Chain:
 
     @property
     def movable(self):
-        """A single edge is the shortest way already, and says nothing about the surface around it."""
+        """Whether it may move. A single edge is the shortest path already and has no neighborhood to search."""
         return self.chosen and self.edge_count > 1
 
 
 @dataclass(frozen=True)
 class Network:
-    """The marked edges of a mesh, and the chains into which they fall."""
+    """The marked edges of a mesh, and the chains they form."""
 
     topology: Topology
     marked: np.ndarray  # (n,) edges
@@ -42,14 +42,15 @@ class Network:
 
 
 def make_network(topology, marked, chosen=None):
-    """Of the marked edges only the chosen ones move (None: all of them)."""
+    """Return the network of the marked edges, of which only the chosen ones may move (None: all of them)."""
     return Network(topology, marked, find_chains(topology, marked, chosen))
 
 
 def find_chains(topology, marked, chosen=None):
-    """The chains of the marked edges between two shown faces: every one of these edges is in exactly one chain.
+    """Return the chains of the marked edges that lie between two visible faces; each edge is in exactly one chain.
 
-    They meet where other than two edges come together, on the border, and where chosen edges meet others.
+    Chains end at vertices where the number of marked edges is not two, on the mesh border, and where chosen edges meet
+    edges that were not chosen.
     """
     chosen = marked if chosen is None else chosen
     edges = np.flatnonzero(marked & topology.inner)
@@ -66,10 +67,10 @@ def find_chains(topology, marked, chosen=None):
 
 
 class _Walk:
-    """Follows the edges of a network from junction to junction, each once."""
+    """Follows the edges of a network from junction to junction, each edge once."""
 
     def __init__(self, topology, around, nodes, chosen):
-        self._ends, self._held = topology.edges, topology.hidden_vertices
+        self._ends, self._hidden = topology.edges, topology.hidden_vertices
         self._around, self._nodes, self._chosen = around, nodes, chosen
         self.used = set()
 
@@ -87,5 +88,5 @@ class _Walk:
             edge = one if other == edge else other
         closed = here == start
         required = [start] if closed and start in self._nodes else []
-        required += [v for v in (vertices[0], vertices[-1]) if not closed and v in self._held]
+        required += [v for v in (vertices[0], vertices[-1]) if not closed and v in self._hidden]
         return Chain(np.array(vertices, dtype=np.int32), closed, chosen, tuple(required))

@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The points of contours across faces, and moving those close to a vertex onto it. Needs no Blender."""
+"""The points of contours across faces, and how points close to a vertex are merged with it. Does not need Blender."""
 
 from collections import defaultdict
 from dataclasses import dataclass
 
 import numpy as np
 
-NEVER_APART = (
-    1e-5  # of an edge: closer to a vertex than this a point has no room of its own in Blender's 32-bit positions
-)
+MIN_SEPARATION = 1e-5  # fraction of an edge; Blender's 32-bit positions cannot tell a closer point from the vertex
 
 
 @dataclass(frozen=True)
@@ -18,7 +16,7 @@ class ContourPoint:
     a: int
     b: int
     t: float
-    face: int  # holds the segment to the next point; at the end of an open contour, that from the last one
+    face: int  # contains the segment to the next point; for the end of an open contour, the segment before it
 
     @property
     def place(self):
@@ -36,14 +34,14 @@ class ContourPoint:
 
 
 def contour_points(contour):
-    """The points of a native result, or of anything with its edge_vertices, edge_parameters and segment_faces."""
+    """Return the points of a native result, or of any object with edge_vertices, edge_parameters and segment_faces."""
     faces = np.asarray(contour.segment_faces).tolist()
     points = zip(np.asarray(contour.edge_vertices).tolist(), np.asarray(contour.edge_parameters).tolist())
     return [_point(a, b, t, faces[min(i, len(faces) - 1)]) for i, ((a, b), t) in enumerate(points)]
 
 
 def without_points_along_edges(contour, closed):
-    """Leaves out what lies between two points on the same edge: running along an edge cuts nothing."""
+    """Drop each point whose neighbors both lie on its edge: running along an edge cuts nothing."""
     before, after = contour[-1:] + contour[:-1], contour[1:] + contour[:1]
     ends = () if closed else (contour[0], contour[-1])
     return [
@@ -53,26 +51,27 @@ def without_points_along_edges(contour, closed):
     ]
 
 
-def merge_points(contours, closed, fraction, kept_whole=frozenset(), guarded=frozenset()):
-    """Moves points closer to a vertex than this fraction of their edge onto it; on edges to be kept whole, all.
+def merge_points(contours, closed, fraction, unsplittable=frozenset(), protected=frozenset()):
+    """Move each point that is closer to a vertex than this fraction of its edge onto that vertex.
 
-    Only where they follow one another along one contour, which then runs through the vertex: so no contour comes to
-    touch itself, another, or a guarded vertex that it did not touch before, and none loses its last corners.
+    Every point on an `unsplittable` edge is moved. Points are moved only if they are consecutive along one contour,
+    which then passes through the vertex. So no contour starts to touch itself, another contour or a `protected` vertex,
+    and none degenerates to fewer than three points.
     """
     near = defaultdict(lambda: defaultdict(list))  # vertex -> contour -> places of its points there
     for c, contour in enumerate(contours):
         for i, point in enumerate(contour):
-            if (point.a, point.b) in kept_whole:
-                near[_end_beside(contour, i)][c].append(i)
-            elif min(point.t, 1.0 - point.t) <= max(fraction, NEVER_APART):
+            if (point.a, point.b) in unsplittable:
+                near[_adjacent_end(contour, i)][c].append(i)
+            elif min(point.t, 1.0 - point.t) <= max(fraction, MIN_SEPARATION):
                 near[point.nearest_vertex()][c].append(i)
     moved = [list(contour) for contour in contours]
     for vertex, visits in near.items():
-        if _may_merge(vertex, visits, contours, closed, vertex in guarded):
+        if _may_merge(vertex, visits, contours, closed, vertex in protected):
             for c, places in visits.items():
                 for i in places:
                     moved[c][i] = contours[c][i].at_vertex(vertex)
-    return [_kept(after, before, is_closed) for after, before, is_closed in zip(moved, contours, closed)]
+    return [_simplified(after, before, is_closed) for after, before, is_closed in zip(moved, contours, closed)]
 
 
 def _point(a, b, t, face):
@@ -87,37 +86,40 @@ def _on_edge_of(point, other):
     return not other.is_vertex and {point.a, point.b} <= {other.a, other.b}
 
 
-def _end_beside(contour, i):
-    """The end of a point's edge that the contour passes next to it, else the nearer one."""
+def _adjacent_end(contour, i):
+    """Return the end of a point's edge that is the previous or next point of the contour, else the nearer end."""
     point = contour[i]
-    beside = {other.a for other in (contour[i - 1], contour[(i + 1) % len(contour)]) if other.is_vertex}
-    ends = beside & {point.a, point.b}
+    neighbors = {other.a for other in (contour[i - 1], contour[(i + 1) % len(contour)]) if other.is_vertex}
+    ends = neighbors & {point.a, point.b}
     return min(ends) if ends else point.nearest_vertex()
 
 
-def _may_merge(vertex, visits, contours, closed, guarded):
-    """One run of one contour; several contours, or a guarded vertex, only where they meet it already."""
+def _may_merge(vertex, visits, contours, closed, protected):
+    """Whether the points form one run of one contour; or several contours, if they all pass through the vertex already.
+
+    A protected vertex takes points only of contours that pass through it already.
+    """
     if not all(_is_run(places, len(contours[c]), closed[c]) for c, places in visits.items()):
         return False
     at_vertex = [any(contours[c][i].place == (vertex, vertex, 0.0) for i in places) for c, places in visits.items()]
-    return all(at_vertex) or (len(visits) == 1 and not guarded)
+    return all(at_vertex) or (len(visits) == 1 and not protected)
 
 
 def _is_run(places, count, closed):
-    """Whether ascending places follow one another, round the end of a closed contour too."""
+    """Whether ascending places are consecutive, which in a closed contour includes wrapping around."""
     gaps = sum(following - place > 1 for place, following in zip(places, places[1:]))
     wraps = closed and places[0] == 0 and places[-1] == count - 1
     return gaps == 0 or (gaps == 1 and wraps)
 
 
-def _kept(moved, given, closed):
-    """Without repeated points; the contour as given where too few would be left."""
+def _simplified(moved, given, closed):
+    """Return the contour without repeated points, or the given contour if too few points would be left."""
     reduced = _without_repeats(moved, closed)
     return reduced if len(reduced) >= 3 else _without_repeats(given, closed)
 
 
 def _without_repeats(contour, closed):
-    """Of equal points in a row the last stays: the segment that leaves is its own."""
+    """Drop all but the last of consecutive equal points: the last one has the face of the segment that follows."""
     following = contour[1:] + contour[:1]
     kept = [point for point, after in zip(contour, following) if point.place != after.place]
     return kept if closed else kept + contour[-1:] * (not kept or kept[-1] is not contour[-1])

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Short lines along the valleys, which draw the contours. Needs no Blender."""
+"""Short lines along the valleys that attract contours. Does not need Blender."""
 
 import numpy as np
 
-_NOTABLE = 0.25  # of the curvature that has the full color
-_FLAT = 1e-4  # over the edge length: smaller curvatures are rounding, as in the native module
-_LENGTH = 0.6  # of the edges round a vertex, so that the lines of neighbors do not touch
+_NOTABLE = 0.25  # fraction of the curvature that has the full color
+_FLAT = 1e-4  # divided by the edge length; smaller curvatures are rounding errors, as in the native module
+_LENGTH = 0.6  # fraction of the mean edge length around a vertex, so that the lines of neighbors do not touch
 
 
 def segments(arrays, curvature, full):
-    """(2 n, 3) float32: the ends of a line at each visible vertex that is notably concave.
+    """Return the ends of a line at each visible vertex that is notably concave, (2 n, 3) float32.
 
     The direction of kappa_max runs along a valley, since kappa_min is the curvature across it (3.4).
     """
@@ -22,7 +22,7 @@ def segments(arrays, curvature, full):
 
 
 def edge_lengths(arrays):
-    """The mean length of the edges round each vertex, those of two faces counted twice; 0 where there is no face."""
+    """Return the mean edge length around each vertex, with edges of two faces counted twice; 0 where no face is."""
     tails, heads = arrays.face_vertices, arrays.face_vertices[_following_corners(arrays.face_offsets)]
     lengths = np.linalg.norm(arrays.positions[heads] - arrays.positions[tails], axis=1)
     ends, count = np.concatenate([tails, heads]), len(arrays.positions)
@@ -37,7 +37,7 @@ def _following_corners(face_offsets):
 
 
 def _visible(arrays):
-    """Whether a face that is not hidden uses a vertex."""
+    """Return for each vertex whether a visible face uses it."""
     face_shown = np.ones(len(arrays.face_offsets) - 1, dtype=bool)
     face_shown[arrays.hidden_faces] = False
     visible = np.zeros(len(arrays.positions), dtype=bool)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From arrays of selected edges or faces to closed loops, open chains and what branches. Needs no Blender."""
+"""Sorts arrays of selected edges or faces into closed loops, open chains and branching pieces. Does not need Blender."""
 
 from dataclasses import dataclass, field
 
@@ -12,9 +12,9 @@ _MIRROR_TOLERANCE = 2e-5  # as Blender's own
 class SelectedContours:
     """The connected pieces of a selection; each list is in the order of the pieces' lowest vertices."""
 
-    loops: list = field(default_factory=list)  # vertices in order, the first not repeated
+    loops: list = field(default_factory=list)  # vertices in order; the first is not repeated
     chains: list = field(default_factory=list)  # vertices from one end to the other
-    branching: list = field(default_factory=list)  # (n, 2) edges of a piece in which a vertex has three or more
+    branching: list = field(default_factory=list)  # (n, 2) edges of a piece with a vertex of three or more edges
 
 
 def sort_edges(edges):
@@ -52,7 +52,7 @@ def contour_edges(vertices, closed=True):
 
 
 def along(vertices, directed_edges, closed=True):
-    """A loop or chain in the direction of the (n, 2) edges that it was sorted from, going by its first."""
+    """Return a loop or chain in the direction of the (n, 2) edges it was made from, judged by its first edge."""
     first, second = vertices[:2]
     if np.any((directed_edges[:, 0] == first) & (directed_edges[:, 1] == second)):
         return vertices
@@ -60,7 +60,10 @@ def along(vertices, directed_edges, closed=True):
 
 
 def with_mirror_images(edges, points, visible_edges, tolerance=_MIRROR_TOLERANCE):
-    """The (n, 2) edges and, turned round, their images across x = 0; None where an image is missing or in the way."""
+    """Return the (n, 2) edges and their reversed mirror images across x = 0.
+
+    Return None if an image is missing, or if the images and the edges would branch where the edges did not.
+    """
     both = with_images(edges, points, visible_edges, tolerance)
     if both is None:
         return None
@@ -68,9 +71,9 @@ def with_mirror_images(edges, points, visible_edges, tolerance=_MIRROR_TOLERANCE
 
 
 def with_images(edges, points, visible_edges, tolerance=_MIRROR_TOLERANCE):
-    """The same, also where an image meets an edge and they branch.
+    """Do the same as with_mirror_images, but allow images to branch off the edges.
 
-    Turned round, what lay to the left of an edge lies to the left of its image.
+    Images are reversed, so that what lies to the left of an edge also lies to the left of its image.
     """
     vertices, ends = np.unique(edges, return_inverse=True)
     images = _mirror_images(points, vertices, tolerance)[ends].reshape(-1, 2)[:, ::-1]
@@ -81,16 +84,16 @@ def with_images(edges, points, visible_edges, tolerance=_MIRROR_TOLERANCE):
 
 
 def common_edges(edges, others):
-    """Those of the (n, 2) edges that are among the others, in either direction."""
+    """Return those of the (n, 2) edges that are also among the others, in either direction."""
     edges, others = (np.asarray(pairs).reshape(-1, 2) for pairs in (edges, others))
     known = {frozenset(pair) for pair in others.tolist()}
     return edges[[frozenset(pair) in known for pair in edges.tolist()]]
 
 
 def region_border(face_offsets, corner_edges, selected, hidden, edge_count):
-    """The edges between a selected face and one that is visible and not selected.
+    """Return the edges between a selected face and a visible face that is not selected.
 
-    Where the selection reaches the mesh's own border, or hidden faces, it has no border that could move.
+    Where the selection reaches the mesh border or hidden faces, it has no border that could move.
     """
     corner_faces = np.repeat(np.arange(len(selected)), np.diff(face_offsets))
     inside = np.zeros(edge_count, dtype=bool)
@@ -101,12 +104,12 @@ def region_border(face_offsets, corner_edges, selected, hidden, edge_count):
 
 
 def _among(edges, some):
-    """Those of many edges whose ends both occur in some others."""
+    """Return the edges whose ends both occur in `some`, which may be edges or vertices."""
     return edges[np.isin(edges, some).all(axis=1)]
 
 
 def _mirror_images(points, vertices, tolerance):
-    """For each of the vertices the point at its image across x = 0; -1 where there is none."""
+    """Return for each of the vertices the point at its mirror image across x = 0, or -1 if there is none."""
     order = np.argsort(points[:, 0], kind="stable")
     sorted_x = points[order, 0]
     images = []
@@ -119,9 +122,10 @@ def _mirror_images(points, vertices, tolerance):
 
 
 def component_labels(ends, count):
-    """The lowest member of each one's connected piece: a lower root takes a higher one, until nothing moves.
+    """Return for each element the lowest member of its connected component, given (n, 2) connections.
 
-    Where several would take it any of them may: the lowest of all is taken by none.
+    Higher roots are hooked onto lower ones until nothing changes. Where several lower roots compete for a higher one,
+    any of them may win: the lowest root of a component is never hooked.
     """
     labels = np.arange(count, dtype=ends.dtype)
     one, other = ends[:, 0], ends[:, 1]
@@ -136,7 +140,7 @@ def component_labels(ends, count):
 
 
 def _neighbor_pairs(ends, degrees):
-    """The two neighbors of each vertex, lower first; -1 where there is no second. A third and more are left out."""
+    """Return two neighbors of each vertex, the lower one first; -1 where there is no second. Ignore further ones."""
     tails, heads = ends.ravel(), ends[:, ::-1].ravel()
     heads = np.append(heads[np.lexsort((heads, tails))], -1)
     first = np.cumsum(degrees) - degrees
@@ -144,7 +148,7 @@ def _neighbor_pairs(ends, degrees):
 
 
 def _walk(neighbors, start):
-    """The vertices from start on, to the end of the chain or once round the loop."""
+    """Return the vertices from start to the end of the chain, or once around the loop."""
     path = [start]
     previous, current = -1, start
     while True:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""All that the add-on says to the user. Needs no Blender."""
+"""All messages that the add-on shows to the user. Does not need Blender."""
 
 import numpy as np
 
@@ -9,42 +9,42 @@ from .parameters import SETTINGS
 NOTHING_SELECTED = (
     "Nothing to optimize: select closed loops or open chains of edges, or faces in face mode to use their borders"
 )
-CANCELLED = "Cancelled: everything is as it was"
-CHANGED_MEANWHILE = "The mesh was changed during the search, so that nothing was written; run it again"
+CANCELLED = "Cancelled: nothing was changed"
+CHANGED_MEANWHILE = "The mesh was changed during the search, so nothing was written; run it again"
 NO_BORDER = "the selected faces have no border inside the mesh: deselect some"
-TURN_LESS = "Sharpest Turn is below its default: raise Sharpest Turn to let contours turn more"
-NO_FACES = "there are no faces, which alone are curved"
-NO_VIEW = "Contours are adjusted in a 3D View: move the mouse over one, or use Optimize Contour"
-_SALIENCES = (  # from this salience on, in words
+TURN_LESS = "Sharpest Turn is below its default: raise it to let contours turn more"
+NO_FACES = "it has no faces, and only faces have a curvature"
+NO_VIEW = "Contours are adjusted in a 3D Viewport: move the mouse over one, or use Optimize Contour"
+_SALIENCES = (  # (least salience, its name)
     (2.0, "clear boundary"),
     (1.0, "good boundary"),
     (0.5, "faint boundary"),
     (0.25, "hardly concave"),
     (-np.inf, "nothing concave here"),
 )
-# What the native module cannot do, by its errors' classes, and why it returned the given contour, by its codes: in the
-# words of the panel, with what to do.
+# Native errors by class, and the reasons for returning the given contour by code. The texts name settings as the panel
+# does and suggest a fix.
 _PROBLEMS = {
     "TooLarge": "the search would need more memory than there is: lower Refinement or Width, or clear Whole Surface",
-    "Infeasible": "no contour in the band passes all required vertices: raise Width, Reach or Sharpest Turn, or take "
-    "some vertices out of the group",
+    "Infeasible": "no contour in the band passes all required vertices: raise Width, Reach or Sharpest Turn, or remove "
+    "some vertices from the group",
 }
 _REASONS = {
     "already_best": "it is already the best nearby: raise Width or Reach to look farther",
-    "not_salient": "there is nothing concave to follow here: lower Least Salience to move it all the same",
+    "not_salient": "there is nothing concave to follow here: lower Least Salience to move it anyway",
     "no_room": "there are no faces around it to search: select fewer contours, or subdivide the mesh",
-    "against_flow": "no way in the band leads along it: raise Width or Sharpest Turn",
-    "no_neighbour": "no loop of edges beside it is free to search from: move it off borders and from itself",
+    "against_flow": "no path in the band follows it: raise Width or Sharpest Turn",
+    "no_neighbour": "there is no free loop of edges next to it to search from: move it away from borders and from itself",
     "shared_faces": "other contours cross the same faces: optimize one at a time",
     "none_refined": "no better contour was found across faces: set Refinement to 0, or raise it",
     "cancelled": "cancelled",
 }
-_SAME_ANGLE = 1e-5  # properties are floats of 32 bits
-_NAMED = 3  # of several alike, only so many are named
+_ANGLE_TOLERANCE = 1e-5  # properties are 32-bit floats
+_MAX_LISTED = 3  # how many items of a list are named
 
 
 def summary(outcomes, notes=()):
-    """One line for the status bar: what improved, what did not and why, the ratios, what was left out, and notes."""
+    """Return one line for the status bar: what improved, what did not and why, the ratios, problems and notes."""
     if not outcomes:
         return NOTHING_SELECTED
     results = [outcome.result for outcome in outcomes if outcome.result is not None and not outcome.problem]
@@ -52,61 +52,61 @@ def summary(outcomes, notes=()):
     if results:
         moved = any(result.ratio != result.initial_ratio for result in results)
         sentences = [_statuses(results), _ratios(results)] if moved else [_statuses(results)]
-    left = [outcome for outcome in outcomes if outcome.problem]
-    if left:
-        sentences.append(_left(outcomes, left))
+    failed = [outcome for outcome in outcomes if outcome.problem]
+    if failed:
+        sentences.append(_left_unchanged(outcomes, failed))
     return ". ".join([*sentences, *dict.fromkeys(notes)])
 
 
-def _left(outcomes, left):
-    """What was left as it is, and where; alike once."""
+def _left_unchanged(outcomes, failed):
+    """Return why contours were left unchanged, each problem once, with the objects unless it concerns all of them."""
     everywhere = len({outcome.place for outcome in outcomes})
     places = {}
-    for outcome in left:
+    for outcome in failed:
         places.setdefault(outcome.problem, {})[outcome.place] = None
     texts = [why if len(at) == everywhere else f"{shortened([*at])}: {why}" for why, at in places.items()]
-    return "Left as it is: " + shortened(texts, "; ")
+    return "Left unchanged: " + shortened(texts, "; ")
 
 
 def single_edge(vertices):
-    return f"a single edge, {vertices[0]}-{vertices[-1]}, has nothing to move between its ends; select a longer chain"
+    return f"a single edge, {vertices[0]}-{vertices[-1]}, has nothing between its ends to move; select a longer chain"
 
 
 def meets_another(vertices):
     return (
         f"the open chain from vertex {vertices[0]} to {vertices[-1]}, once closed, would meet another contour; "
-        "select one chain or loop for each limb"
+        "select only one chain or loop per limb"
     )
 
 
 def level(outcomes, warnings):
-    """How Blender is to report them: as a warning where there is something to warn of, or nothing else."""
+    """Return Blender's report level: a warning if there are warnings or problems, or no outcome at all."""
     return "WARNING" if warnings or not outcomes or any(outcome.problem for outcome in outcomes) else "INFO"
 
 
 def turn_notes(outcomes, max_turn):
-    """What besides Width and Reach keeps a search from what is better, where nothing better was found."""
-    prunes = max_turn < SETTINGS["max_turn"]["default"] - _SAME_ANGLE
+    """Return a hint to raise Sharpest Turn if it is low and nothing better was found."""
+    prunes = max_turn < SETTINGS["max_turn"]["default"] - _ANGLE_TOLERANCE
     results = [outcome.result for outcome in outcomes if outcome.result is not None]
     return [TURN_LESS] if prunes and any(result.reason_code == "already_best" for result in results) else []
 
 
 def problem(error):
-    """What an error says to the user: the native module's in the panel's words, without the places in its lists."""
+    """Return an error's message for the user; native errors use the panel's terms and no indices into lists."""
     return _PROBLEMS.get(type(error).__name__) or native.message_and_contour(error)[0]
 
 
 def reason(result):
-    """Why the given contour was returned; empty where it was not."""
+    """Return why the given contour was returned; empty if it was not."""
     if not result.reason_code:
         return ""
-    others = len(result.held_back_by)
-    beside = "1 other contour" if others == 1 else f"{others} other contours"
-    return _REASONS[result.reason_code] + (f"; {beside} beside it kept the search back" if others else "")
+    count = len(result.held_back_by)
+    others = "1 other contour" if count == 1 else f"{count} other contours"
+    return _REASONS[result.reason_code] + (f"; {others} nearby limited the search" if count else "")
 
 
 def pins_outside(count):
-    """What to do about pins that no contour can reach; empty where there are none."""
+    """Return what to do about pins that no contour can reach; empty if there are none."""
     if not count:
         return ""
     pins = "1 pinned vertex lies" if count == 1 else f"{count} pinned vertices lie"
@@ -114,7 +114,7 @@ def pins_outside(count):
 
 
 def unsearchable(error, count):
-    """Why nothing could be searched for with the pins there are, so many of them outside the band."""
+    """Return why the search failed, given how many pins lie outside the band."""
     if count:
         return pins_outside(count)
     if type(error).__name__ == "Infeasible":
@@ -125,8 +125,8 @@ def unsearchable(error, count):
 def inseparable(outcome):
     if outcome.closed:
         return (
-            f"the loop through vertex {outcome.vertices[0]} does not separate the mesh: it runs round a handle; "
-            "select a second loop round it too, or use Cut or Seam"
+            f"the loop through vertex {outcome.vertices[0]} does not separate the mesh: it runs around a handle; "
+            "select a second loop around the handle too, or use Cut or Seam"
         )
     return (
         f"the open chain from vertex {outcome.vertices[0]} to {outcome.vertices[-1]} does not separate the mesh; "
@@ -136,52 +136,52 @@ def inseparable(outcome):
 
 def hidden_part(outcome):
     return (
-        f"the part beyond the contour through vertex {outcome.vertices[0]} is partly hidden and would not come along; "
+        f"the part beyond the contour through vertex {outcome.vertices[0]} is partly hidden and would be left behind; "
         "reveal it first (Alt H)"
     )
 
 
 def uneven_scale(place):
-    return f"{place} is scaled unevenly or mirrored, and is measured without it; to count it, apply it (Ctrl A > Scale)"
+    return f"{place} has an uneven or negative scale, which is ignored; apply it to take it into account (Ctrl A > Scale)"
 
 
 def not_mirrored(place):
-    return f"X Mirror is on, but {place} is not symmetric here, so that only what is selected moved"
+    return f"X Mirror is on, but {place} is not symmetric here, so only the selected contours moved"
 
 
 def inside_out(place):
     return (
-        f"The normals of {place} point inward, so that grooves count as ridges: "
+        f"The normals of {place} point inward, so grooves count as ridges: "
         "Mesh > Normals > Recalculate Outside (Shift N)"
     )
 
 
 def linked(obj):
     return (
-        f"{obj.name} is linked from another file and read only: make it local first (Object > Relations > Make Local)"
+        f"{obj.name} is linked from another file and read-only: make it local first (Object > Relations > Make Local)"
     )
 
 
 def branching(vertices):
     noun = "vertex" if len(vertices) == 1 else "vertices"
-    return f"a selection that branches at {noun} {shortened(vertices)}; select single loops, or faces in face mode"
+    return f"the selection branches at {noun} {shortened(vertices)}; select single loops, or faces in face mode"
 
 
 def no_layer(kind, name):
     if not name:
-        return f"no {kind} is named: choose one under Constraints, or none at all"
+        return f"no {kind} is chosen: choose one under Constraints, or set Region to None"
     return f"there is no {kind} named {name}: choose another one under Constraints, or clear the field"
 
 
 def open_region():
-    return "an open chain encloses no region: set Region to None under Constraints, or select a closed loop"
+    return "an open chain does not enclose a region: set Region to None under Constraints, or select a closed loop"
 
 
 def curvature_shown(count, problems, values, colors):
     sentences = []
     if count:
         places = "1 mesh" if count == 1 else f"{count} meshes"
-        sentences = [f"Curvature of {places} is in the attributes '{values}', in 1 / length, and '{colors}'"]
+        sentences = [f"Curvature of {places} written to the attributes '{values}' (1 / length) and '{colors}'"]
     if problems:
         sentences.append("Not shown: " + shortened(problems, "; "))
     return ". ".join(sentences)
@@ -192,25 +192,25 @@ def directions_shown(count, problems):
     if count:
         sentences = [f"Directions at {count} concave vertices"]
     elif not problems:
-        sentences = ["Nothing is notably concave here: there are no directions to show"]
+        sentences = ["Nothing here is notably concave: there are no directions to show"]
     if problems:
         sentences.append("Not shown: " + shortened(problems, "; "))
     return ". ".join(sentences)
 
 
 def name_taken(name):
-    return f"another kind of attribute is named '{name}': rename or remove it"
+    return f"there is an attribute of another type named '{name}': rename or remove it"
 
 
 def loose(edges, closed=True):
     noun = "a loop" if closed else "an open chain"
     names = shortened([f"{a}-{b}" for a, b in edges])
-    return f"{noun} with loose edges that no face uses ({names}); select edges of faces only"
+    return f"{noun} has loose edges that no face uses ({names}); select edges of faces only"
 
 
 def shortened(items, separator=", "):
-    """The first few items as text, and how many more there are."""
-    texts = [str(item) for item in items[:_NAMED]]
+    """Return the first few items as text, and how many more there are."""
+    texts = [str(item) for item in items[:_MAX_LISTED]]
     more = len(items) - len(texts)
     return separator.join(texts) + (f" and {more} more" if more else "")
 
@@ -220,7 +220,7 @@ def milliseconds(result):
 
 
 def salience(result):
-    """How far to trust a result, in words and as a number; empty where nothing was searched."""
+    """Return how far to trust a result, in words and as a number; empty if nothing was searched."""
     if not result.statistics["passes"]:
         return ""
     words = next(words for least, words in _SALIENCES if result.salience >= least)
@@ -228,7 +228,7 @@ def salience(result):
 
 
 def length(result):
-    """Of the contour found, in object space."""
+    """Return the length of the contour found, in object space."""
     points = np.asarray(result.positions)
     ends = np.roll(points, -1, axis=0) if result.closed else points[1:]
     return float(np.linalg.norm(ends - points[: len(ends)], axis=1).sum())
@@ -237,16 +237,16 @@ def length(result):
 def _statuses(results):
     improved = sum(result.status == "improved" for result in results)
     others = [result for result in results if result.status != "improved"]
-    parts = [f"{_counted(improved)} improved"] if improved else []
+    parts = [f"{_contour_count(improved)} improved"] if improved else []
     for status in sorted({result.status for result in others}):
-        alike = [result for result in others if result.status == status]
-        reasons = [why for why in dict.fromkeys(map(reason, alike)) if why]
-        count = len(alike) if parts else _counted(len(alike))
+        matching = [result for result in others if result.status == status]
+        reasons = [why for why in dict.fromkeys(map(reason, matching)) if why]
+        count = len(matching) if parts else _contour_count(len(matching))
         parts.append(f"{count} {status}" + (f" ({shortened(reasons, '; ')})" if reasons else ""))
     return ", ".join(parts)
 
 
-def _counted(count):
+def _contour_count(count):
     return f"{count} contour" if count == 1 else f"{count} contours"
 
 
@@ -260,25 +260,25 @@ def _ratios(results):
 
 
 def network_summary(outcomes, noun, notes=()):
-    """One line for the status bar: how many moved, the ratios, what was left out and why, and notes."""
+    """Return one line for the status bar: how many moved, the ratios, problems and notes."""
     results = [outcome.result for outcome in outcomes if outcome.result is not None]
-    left = [outcome for outcome in outcomes if outcome.result is None]
+    failed = [outcome for outcome in outcomes if outcome.result is None]
     moved = sum(result.status == "improved" for result in results)
     sentences = []
     if moved:
         sentences = [f"{moved} of {len(outcomes)} {noun} moved", _ratios(results)]
     elif results:
         sentences = [_nothing_better(results, noun)]
-    if left:
-        sentences.append(_left(outcomes, left))
+    if failed:
+        sentences.append(_left_unchanged(outcomes, failed))
     return ". ".join([*sentences, *dict.fromkeys(notes)])
 
 
 def _nothing_better(results, noun):
-    """With the reason, where all have the same."""
+    """Return that nothing better was found, with the reason if it is the same for all."""
     reasons = set(map(reason, results))
     why = reasons.pop() if len(reasons) == 1 else ""
-    return f"No better place was found for the {noun}" + (f" ({why})" if why else "")
+    return f"No better position was found for the {noun}" + (f" ({why})" if why else "")
 
 
 NO_BORDERS = "Nothing to optimize: there are no borders between regions; choose another source, or label some faces"
@@ -293,7 +293,7 @@ def no_seams(selected_only):
 def lost_region(labels, region):
     if region < 0:
         return "a border whose move would join or split regions"
-    return f"the borders of region {labels[region]}, which is too thin to keep otherwise"
+    return f"the borders of region {labels[region]}, which is so thin that it would disappear"
 
 
 def no_face_sets():
@@ -302,5 +302,5 @@ def no_face_sets():
 
 def no_attribute(name):
     if not name:
-        return "no attribute is named: choose an integer attribute of the faces"
-    return f"there is no integer attribute '{name}' of the faces: convert it, or choose another one"
+        return "no attribute is chosen: choose an integer attribute of the faces"
+    return f"there is no integer face attribute '{name}': convert it, or choose another one"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What became of each contour: its result, or the problem for which it was left as it is. Needs no Blender."""
+"""The outcome of each contour: its result, or the problem because of which it was not moved. Does not need Blender."""
 
 from dataclasses import dataclass
 
@@ -10,16 +10,16 @@ from .edge_paths import contour_edges
 
 @dataclass
 class Outcome:
-    """One contour of the selection: its native result, or the problem for which it was left as it is."""
+    """One contour of the selection: its native result, or the problem because of which it was not moved."""
 
     place: str  # the object's name
-    edges: np.ndarray | None  # as selected, (n, 2) vertex pairs; None where nothing could be read
-    vertices: np.ndarray | None = None  # in order, where the edges do not branch
+    edges: np.ndarray | None  # as selected, (n, 2) vertex pairs; None if nothing could be read
+    vertices: np.ndarray | None = None  # in order; None if the edges branch
     closed: bool = True
-    closing: bool = False  # an open chain as selected, which is closed first
+    closing: bool = False  # whether it is an open chain that is to be closed first
     result: object = None
     problem: str = ""
-    leaving: tuple = ()  # where parts are to be separated: whether on the left, for each side that leaves
+    leaving: tuple = ()  # for each side that is to be separated, whether it is the left one
 
     @classmethod
     def of(cls, place, vertices, closed, **found):
@@ -27,7 +27,7 @@ class Outcome:
 
 
 def network_outcomes(place, plan, why_lost):
-    """What became of each chain of a network that could have moved; why_lost explains a region that would be lost."""
+    """Return the outcome of each chain that could have moved; why_lost(region) explains that the region would be lost."""
     taken = plan.taken_results()
     outcomes = []
     for i, chain in enumerate(plan.chains):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What wheel, keys and clicks make of the settings while a contour is adjusted. Needs no Blender."""
+"""How the mouse wheel, keys and clicks change the settings while a contour is adjusted. Does not need Blender."""
 
 from dataclasses import dataclass, replace
 
@@ -30,7 +30,7 @@ _PLAIN = {
     "RIGHTMOUSE": CANCEL,
 }
 _WHEEL = ("WHEELUPMOUSE", "WHEELDOWNMOUSE")
-# With Ctrl some keys of the number pad do more than turn the view: grow the selection, set the camera.
+# With Ctrl, some number pad keys do more than turn the view: they grow the selection or set the camera.
 _VIEWS = tuple(f"NUMPAD_{digit}" for digit in range(1, 10))
 _VIEWS_WHEN_PLAIN = ("NUMPAD_0", "NUMPAD_PLUS", "NUMPAD_MINUS", "NUMPAD_PERIOD", "HOME")
 _NAVIGATION = ("MIDDLEMOUSE", "TRACKPADPAN", "TRACKPADZOOM", "MOUSEROTATE", "MOUSESMARTZOOM")
@@ -39,27 +39,27 @@ _NOT_INPUT = ("TIMER", "NDOF", "WINDOW_DEACTIVATE", "NONE")
 
 @dataclass(frozen=True)
 class State:
-    """All that the user can change; the pins are (place of the contour in the list, vertex)."""
+    """Everything that the user can change; each pin is (index of the contour in the list, vertex)."""
 
     settings: dict
     output: str = "SELECT"
     pins: frozenset = frozenset()
-    reach: float = SETTINGS["reach"]["default"]  # what the reach is while it is on
+    reach: float = SETTINGS["reach"]["default"]  # the value that turning the reach on restores
 
     @classmethod
     def start(cls, settings, output, pins=()):
         return cls(dict(settings), output, frozenset(pins), settings["reach"] or SETTINGS["reach"]["default"])
 
     def pins_of(self, contour):
-        """The vertices pinned on one contour, ascending."""
+        """Return the vertices pinned on one contour, in ascending order."""
         return sorted(vertex for owner, vertex in self.pins if owner == contour)
 
     def stray_pins(self, count):
-        """How many pins are on none of so many contours."""
+        """Return how many pins belong to none of the first `count` contours."""
         return sum(not 0 <= owner < count for owner, _ in self.pins)
 
     def toggled(self, contour, vertex):
-        """Pins a vertex, or unpins it, whichever contour it is pinned on."""
+        """Pin a vertex, or unpin it from whichever contour it is pinned on."""
         pinned = frozenset(pin for pin in self.pins if pin[1] == vertex)
         return replace(self, pins=self.pins - pinned if pinned else self.pins | {(contour, vertex)})
 
@@ -68,7 +68,7 @@ class State:
 
 
 def command_of(event_type, shift=False, ctrl=False, alt=False):
-    """What the user asks for by pressing a key or button, or by turning the wheel."""
+    """Return the command for a key, a mouse button or the mouse wheel."""
     modified = shift or ctrl or alt
     if event_type in _NAVIGATION or event_type.startswith(_NOT_INPUT):
         return PASS
@@ -77,7 +77,7 @@ def command_of(event_type, shift=False, ctrl=False, alt=False):
     if event_type in _VIEWS_WHEN_PLAIN and not modified:
         return PASS
     if event_type in _WHEEL and modified:
-        return IGNORE if alt else PASS  # Blender pans with these; with Alt it would change the frame
+        return IGNORE if alt else PASS  # Blender pans the view with these; with Alt it would change the frame
     if ctrl or alt:
         return IGNORE
     if event_type in _SHIFTED:
@@ -86,7 +86,7 @@ def command_of(event_type, shift=False, ctrl=False, alt=False):
 
 
 def changed(state, command):
-    """The state after a command; the same where the command changes nothing."""
+    """Return the state after a command; the same object if the command changes nothing."""
     change = _CHANGES.get(command)
     after = change(state) if change else state
     return state if after == state else after
@@ -96,7 +96,7 @@ def _stepped(state, name, step):
     row = SETTINGS[name]
     most = row["max"] if "max" in row else row["soft_max"]
     value = state.settings[name]
-    # A value beyond the soft limit was typed in: it may come down, and goes no farther up.
+    # A value beyond the soft limit was typed in: it may be lowered, but not raised any further.
     return state.with_settings(**{name: max(row["min"], min(value + step, max(most, value)))})
 
 
@@ -131,21 +131,21 @@ _CHANGES = {
 
 
 def is_wider(state, before):
-    """Whether more rings were asked for, while the reach may hold them."""
+    """Whether the width was raised while the reach may limit the band."""
     now, then = state.settings, before.settings
     return now["width"] > then["width"] and now["reach"] > 0 and not now["whole_surface"]
 
 
 def header(state, output_name, outcome, held=False):
-    """The line over the view: the settings that the keys change, and what was found with them.
+    """Return the header text: the settings that the keys change, and the outcome with these settings.
 
-    held: the reach, not the width, bounds the band, so that a greater width changes nothing.
+    held: whether the reach limits the band and not the width, so that a greater width changes nothing.
     """
     settings = state.settings
     width = "Whole Surface" if settings["whole_surface"] else f"Width: {settings['width']}"
     if not settings["whole_surface"]:
         width += f", Reach: {settings['reach']:.2f}" if settings["reach"] > 0 else ", Reach: off"
-        width += " holds the band (E: off)" if held else ""
+        width += " limits the band (E: off)" if held else ""
     pins = f", Pins: {len(state.pins)}" if state.pins else ""
     return (
         f"{width}, Refinement: {settings['refinement']}, Short: {settings['length_bias']:.1f}, "
