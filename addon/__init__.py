@@ -6,23 +6,23 @@ import sys
 bl_info = {
     "name": "Minimum Ratio Contours",
     "author": "Minimum Ratio Contours developers",
-    "version": (0, 0, 0),  # packaging puts that of CMakeLists.txt here and in the manifest
+    "version": (0, 0, 0),  # packaging writes the version in CMakeLists.txt here and into the manifest
     "blender": (3, 4, 0),
     "location": "Edit Mode > Sidebar > Contours, and Edge > Optimize Contour",
     "description": "Moves rough edge loops to the part boundaries nearby",
     "category": "Mesh",
 }
-VERSION = ".".join(map(str, bl_info["version"]))  # kept, since Blender deletes the bl_info of an extension
+VERSION = ".".join(map(str, bl_info["version"]))  # stored here because Blender deletes the bl_info of an extension
 
-# An upgrade in a running Blender reloads this file alone: forget the others, so that they are loaded anew. The compiled
-# module cannot be; core/native.py tells it from the version that belongs here.
+# An upgrade in a running Blender reloads only this file: drop the others, so that they are loaded again. The compiled
+# module cannot be reloaded; core/native.py checks its version.
 for _name in [name for name in sys.modules if name.startswith(__name__ + ".") and not name.endswith(".mrcontour")]:
     del sys.modules[_name]
-    globals().pop(_name.removeprefix(__name__ + "."), None)  # modules and folders beside this file
+    globals().pop(_name.removeprefix(__name__ + "."), None)  # modules and folders next to this file
 
 
 def _modules():
-    # Imported here, not above: the modules that do without bpy can then be imported outside Blender.
+    # Imported here so that the modules without bpy can be imported outside Blender.
     from .ui import adjust, menus, network_operators, operators, panels, preferences, presets
     from .ui import show_curvature as colors
     from .ui import show_directions as directions
@@ -31,7 +31,7 @@ def _modules():
 
 
 def register():
-    from . import api  # noqa: F401  loaded with the add-on, for scripts
+    from . import api  # noqa: F401  for scripts, loaded with the add-on
 
     for module in _modules():
         module.register()

@@ -1,17 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""For scripts: the same as the operators, without a selection, returning the native results.
+"""For scripts: functions that do the same as the operators, without a selection, and return the native results.
 
 >>> from minimum_ratio_contours import api
 >>> result = api.optimize_contour(bpy.data.objects["Hand"], [12, 13, 40, 39], width=8)
 >>> result.status, result.ratio, result.vertices
 
-The settings are those of `core.parameters.SETTINGS`, with the add-on's defaults, for a mesh object also those of
-`core.parameters.CONSTRAINTS`, which name its vertex groups, attributes and marked edges. Unknown settings raise a
-TypeError, bad input a ValueError that names the elements. Vertices are ids, (N,) int; lengths are in the mesh's own
-space, angles in radians. Results are those of `mrcontour.optimize`; `help(mrcontour.Result)` explains them.
+Common to all functions:
 
-`native_module()` is that module, wherever the add-on has it, and `native_options(**settings)` are the keyword arguments
-of its `Options`. Functions whose names end in `_on` take its Surface, of `surface_of(obj)`, instead of an object.
+- `obj` is a mesh object, in Edit Mode or not. Hidden faces are not searched.
+- `vertices` are vertex indices in order along a contour, (N,) int; a closed contour does not repeat its first vertex.
+- Settings are keyword arguments named as in `core.parameters.SETTINGS`, with the add-on's defaults.
+  `optimize_contour` also takes those of `core.parameters.CONSTRAINTS`, which name vertex groups, attributes and marked
+  edges of the object.
+- Lengths are in units of object space, angles in radians.
+- Results are those of `mrcontour.optimize`; see `help(mrcontour.Result)`.
+- Errors: TypeError for an unknown setting, ValueError for bad input, with a message that names the elements.
+
+`native_module()` returns the module `mrcontour`, wherever the add-on has it, and `native_options(**settings)` returns
+the keyword arguments of its `Options`. Functions whose names end in `_on` take a Surface, as returned by
+`surface_of(obj)`, instead of an object.
 """
 
 import bpy
@@ -42,27 +49,40 @@ __all__ = [
 
 
 def optimize_contour(obj, vertices, closed=True, close=False, **settings):
-    """The minimum ratio contour near a given one, given by its vertices in order; the mesh stays as it is.
+    """Return the minimum ratio contour near a given one, an `mrcontour.Result`. The mesh is not changed.
 
-    `obj` is a mesh object, in Edit Mode or not; a closed contour does not repeat its first vertex. Returns an
-    `mrcontour.Result`.
-    With `close`, the vertices are a chain, a quarter of a loop or more, that is closed round its limb first. The
-    setting `anchor` says how strongly the result is held near the loop so closed; 0: not at all.
+    vertices: (N,) int, the given contour in order along edges of the mesh.
+    closed: whether it is a loop (default) or an open chain.
+    close: whether to close the chain of vertices around its limb first; a quarter of a loop is enough. `closed` is then
+        ignored, and the setting `anchor` (default 0.5; 0: not at all) says how strongly the result is held near the
+        loop that this gives.
+    settings: those of `core.parameters.SETTINGS` and `core.parameters.CONSTRAINTS`.
+
+    Raises TypeError for unknown settings, and ValueError if the vertices are not a contour, a layer is missing, or no
+    contour meets the constraints.
     """
     synchronize(obj)
-    settings, wanted = parameters.split(settings)
-    asked = constraint_layers.read(obj, **wanted)
+    settings, layer_settings = parameters.split(settings)
+    constraints = constraint_layers.read(obj, **layer_settings)
     return optimize_on(
-        surface_cache.surface_of(obj), vertices, closed=closed, close=close, constraints=asked, **settings
+        surface_cache.surface_of(obj), vertices, closed=closed, close=close, constraints=constraints, **settings
     )
 
 
 def optimize_seams(obj, selected_only=False, apply=False, merge=0.0, **settings):
-    """Optimizes all seams of a mesh, or those among its selected edges; with apply they move there.
+    """Optimize the seams of a mesh. Return a list of `mrcontour.Result`.
 
-    Those across faces, with the setting `refinement`, are cut into the mesh; `merge` is that of Optimize Contour.
-    The settings are those of `parameters.NETWORK`. Returns the native results, one for each chain between junctions and
-    each closed loop that could move.
+    There is one result for each closed loop and each chain between junctions that could move and would not join, split
+    or remove an island.
+
+    selected_only: whether only the seams among the selected edges may move (default: all).
+    apply: whether to move the seams in the mesh (default: leave the mesh unchanged). With the setting `refinement` they
+        run across faces, and are cut into the mesh.
+    merge: when contours are cut, points closer to a vertex than this fraction of their edge, 0 to 0.5, are moved onto
+        it (default: 0).
+    settings: those of `core.parameters.NETWORK`.
+
+    Raises TypeError for unknown settings, and ValueError if the mesh is not a valid surface.
     """
     synchronize(obj)
     plan = _plan(obj, seams.read_network(obj, selected_only), merge, settings)
@@ -73,10 +93,18 @@ def optimize_seams(obj, selected_only=False, apply=False, merge=0.0, **settings)
 
 
 def optimize_segmentation(obj, source="FACE_SETS", attribute="", apply=False, merge=0.0, **settings):
-    """Optimizes the borders between the regions of a labeling; with apply the labels move with them.
+    """Optimize the borders between the regions of a labeling. Return a list of `mrcontour.Result`, as optimize_seams.
 
-    source: FACE_SETS, MATERIAL or ATTRIBUTE; an attribute's name alone is enough.
-    Returns the native results, as optimize_seams does, takes the same settings, and cuts what runs across faces.
+    source: "FACE_SETS" (default), "MATERIAL" or "ATTRIBUTE".
+    attribute: the name of an integer face attribute; if given, the source is "ATTRIBUTE".
+    apply: whether to move the labels with the borders (default: leave the mesh unchanged). With the setting
+        `refinement` the borders run across faces, and are cut into the mesh.
+    merge: when contours are cut, points closer to a vertex than this fraction of their edge, 0 to 0.5, are moved onto
+        it (default: 0).
+    settings: those of `core.parameters.NETWORK`.
+
+    Raises TypeError for unknown settings, and ValueError for an unknown source, if the mesh does not have these labels,
+    or if it is not a valid surface.
     """
     synchronize(obj)
     labeling = segmentation.read_labeling(obj, "ATTRIBUTE" if attribute else source, attribute)
@@ -88,9 +116,14 @@ def optimize_segmentation(obj, source="FACE_SETS", attribute="", apply=False, me
 
 
 def curvature(obj, **options):
-    """The native principal curvatures at all vertices, an `mrcontour.Curvature`, in one over the mesh's unit of length.
+    """Return the principal curvatures at all V vertices, an `mrcontour.Curvature`.
 
-    The options are those of mrcontour.Options.
+    It has `kappa_min` and `kappa_max`, (V,) float64 in 1 / length of object space, and the unit vectors `direction_min`
+    and `direction_max`, (V, 3) float64.
+
+    options: those of `mrcontour.Options`, with its defaults; for example `curvature_radius=1.6`.
+
+    Raises TypeError for unknown options, and ValueError if the mesh is not a valid surface.
     """
     synchronize(obj)
     mrc = native_module()
@@ -98,9 +131,11 @@ def curvature(obj, **options):
 
 
 def surface_of(obj, beside=()):
-    """The native surface of a mesh object, in Edit Mode or not; kept while the mesh is unchanged.
+    """Return the `mrcontour.Surface` of a mesh object, in Edit Mode or not. It is cached while the mesh is unchanged.
 
-    Only those of the last object asked for, and of the objects `beside` it, are kept.
+    beside: other objects whose surfaces stay in the cache (default: none). All others are dropped.
+
+    Raises ValueError if the mesh is not a valid surface.
     """
     synchronize(obj)
     return surface_cache.surface_of(obj, beside)

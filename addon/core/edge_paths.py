@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sorts arrays of selected edges or faces into closed loops, open chains and branching pieces. Does not need Blender."""
+"""Sorts selected edges, or the borders of faces, into loops, chains and branching pieces. Does not need Blender."""
 
 from dataclasses import dataclass, field
 
@@ -18,7 +18,7 @@ class SelectedContours:
 
 
 def sort_edges(edges):
-    """Sorts (n, 2) edges into closed loops, open chains and branching pieces."""
+    """Sort (n, 2) edges into closed loops, open chains and branching pieces."""
     edges = np.asarray(edges).reshape(-1, 2)
     vertices, ends = np.unique(edges, return_inverse=True)
     ends = ends.reshape(-1, 2)
@@ -39,13 +39,13 @@ def sort_edges(edges):
 
 
 def branch_vertices(edges):
-    """The vertices at which three or more of the (n, 2) edges meet."""
+    """Return the vertices at which three or more of the (n, 2) edges meet."""
     vertices, counts = np.unique(edges, return_counts=True)
     return vertices[counts > 2]
 
 
 def contour_edges(vertices, closed=True):
-    """The (n, 2) vertex pairs along a contour."""
+    """Return the (n, 2) vertex pairs along a contour."""
     vertices = np.asarray(vertices)
     pairs = np.column_stack([vertices, np.roll(vertices, -1)])
     return pairs if closed else pairs[:-1]

@@ -34,7 +34,7 @@ _REASONS = {
     "not_salient": "there is nothing concave to follow here: lower Least Salience to move it anyway",
     "no_room": "there are no faces around it to search: select fewer contours, or subdivide the mesh",
     "against_flow": "no path in the band follows it: raise Width or Sharpest Turn",
-    "no_neighbour": "there is no free loop of edges next to it to search from: move it away from borders and from itself",
+    "no_neighbour": "no loop of edges next to it is free to search from: move it away from borders and from itself",
     "shared_faces": "other contours cross the same faces: optimize one at a time",
     "none_refined": "no better contour was found across faces: set Refinement to 0, or raise it",
     "cancelled": "cancelled",
@@ -142,7 +142,9 @@ def hidden_part(outcome):
 
 
 def uneven_scale(place):
-    return f"{place} has an uneven or negative scale, which is ignored; apply it to take it into account (Ctrl A > Scale)"
+    return (
+        f"{place} has an uneven or negative scale, which is ignored; to take it into account, apply it (Ctrl A > Scale)"
+    )
 
 
 def not_mirrored(place):

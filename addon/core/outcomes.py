@@ -27,7 +27,7 @@ class Outcome:
 
 
 def network_outcomes(place, plan, why_lost):
-    """Return the outcome of each chain that could have moved; why_lost(region) explains that the region would be lost."""
+    """Return the outcome of each chain that could have moved; why_lost(region) says why its region would be lost."""
     taken = plan.taken_results()
     outcomes = []
     for i, chain in enumerate(plan.chains):

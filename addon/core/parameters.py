@@ -7,7 +7,7 @@ The defaults are those whose contours come closest to where people draw part bou
 import math
 from typing import Any
 
-# Each row has the arguments of a property of bpy.props, so that operators and documents share one wording and one default.
+# Each row has the arguments of a property of bpy.props, so that operators and documents share the wording and defaults.
 # Lengths are measured in the mesh's own space; weights have no unit.
 SETTINGS: dict[str, dict[str, Any]] = {
     "width": {
@@ -148,7 +148,7 @@ CONSTRAINTS: dict[str, dict[str, Any]] = {
     },
     "barrier_marks": {
         "name": "Barrier Edges",
-        "description": "Marked edges that no contour crosses. Marks along the given contour are ignored, since they move",
+        "description": "Marked edges that no contour crosses. Marks along the given contour are ignored: they move",
         "items": _MARKS,
         "default": set(),
         "options": {"ENUM_FLAG"},
@@ -160,7 +160,7 @@ CONSTRAINTS: dict[str, dict[str, Any]] = {
     },
     "attractor_marks": {
         "name": "Attracting Edges",
-        "description": "Marked edges that attract the contour. Marks along the given contour are ignored, since they move",
+        "description": "Marked edges that attract the contour. Marks along the given contour are ignored: they move",
         "items": _MARKS,
         "default": set(),
         "options": {"ENUM_FLAG"},
@@ -175,7 +175,7 @@ CONSTRAINTS: dict[str, dict[str, Any]] = {
     },
     "attractor_radius": {
         "name": "Radius",
-        "description": "How far an attractor acts, in average edge lengths of the given contour",
+        "description": "How far along the surface an attractor acts, in average edge lengths of the given contour",
         "default": 3.0,
         "min": 0.1,
         "soft_max": 20.0,

@@ -38,7 +38,7 @@ class _Line:
 
 
 def check_regions(topology, marked, chains, paths):
-    """Take as many of the new paths (None: stays) as leave every region in one piece and on the same side of its chains.
+    """Take as many of the new paths (None: stays) as leave each region in one piece, on the same side of its chains.
 
     Chains around a region that would vanish, join another one or fall apart stay where they are. With all chains
     unmoved every region is intact, so the loop ends.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moves whole arrays from Blender's meshes."""
+"""Reads whole arrays from Blender's meshes, and writes seams and labels back."""
 
 from dataclasses import dataclass, fields
 from functools import cached_property
@@ -11,13 +11,13 @@ import numpy as np
 from ..core import edge_paths
 from . import attributes
 
-_EVEN = 1e-3  # scales that differ by less than this fraction are the same
-_AT_ONCE = 1 << 14  # triangles: what is computed from them then stays in the processor's cache
+_SCALE_TOLERANCE = 1e-3  # scales that differ by less than this fraction are the same
+_CHUNK = 1 << 14  # triangles; intermediate results of this many fit into the processor's cache
 
 
 @dataclass(frozen=True)
 class MeshArrays:
-    """What mrcontour.Surface is made from, in its order and types, in object space."""
+    """The arguments of mrcontour.Surface, in its order and types, in object space."""
 
     positions: np.ndarray
     face_offsets: np.ndarray
@@ -33,20 +33,20 @@ class MeshArrays:
 
     @cached_property
     def signed_volume(self):
-        """What the triangles enclose where they are closed: a sixth of the sum of their determinants about a center."""
+        """The volume inside a closed mesh: a sixth of the sum of the triangles' determinants about a center."""
         axes = (self.positions - self.positions.mean(axis=0)).T.copy()
-        parts = np.split(self.triangles, range(_AT_ONCE, len(self.triangles), _AT_ONCE))
+        parts = np.split(self.triangles, range(_CHUNK, len(self.triangles), _CHUNK))
         return sum(_determinants(axes, part.T) for part in parts) / 6
 
 
 def synchronize(obj):
-    """Brings the mesh up to date with what was done in Edit Mode; until then its arrays are those of before."""
+    """Bring the mesh up to date with Edit Mode; until then its arrays are those from before the edit."""
     if attributes.is_edited(obj):
         obj.update_from_editmode()
 
 
 def read_arrays(obj):
-    """The arrays of a synchronized mesh object."""
+    """Return the arrays of a synchronized mesh object."""
     face_offsets, corners = attributes.face_offsets(obj), attributes.read(obj, "loops", "vertex_index", np.int32)
     return MeshArrays(
         positions=_read_points(obj),
@@ -59,17 +59,17 @@ def read_arrays(obj):
 
 @dataclass(frozen=True)
 class EdgeSelection:
-    """The edges that the user means, as vertex pairs, and those of them that no face uses."""
+    """The edges of the contours that the user selected, as vertex pairs, and those of them that no face uses."""
 
-    edges: np.ndarray  # in face mode directed: the selected face is to the left
+    edges: np.ndarray  # in face mode directed, with the selected face to the left
     loose: np.ndarray
-    borderless: bool = False  # whether there are selected faces without such a border
+    borderless: bool = False  # whether faces are selected but have no border that could move
 
 
 def read_selection(obj, face_mode):
-    """The selected edges of a synchronized mesh; in face mode the borders of the selected faces.
+    """Return the selected edges of a synchronized mesh; in face mode the borders of the selected faces.
 
-    Edit Mode never has anything hidden selected.
+    In Edit Mode, hidden elements are never selected.
     """
     if face_mode:
         directed = _selected_border(obj)
@@ -84,7 +84,7 @@ def read_selection(obj, face_mode):
 
 @dataclass(frozen=True)
 class EdgeArrays:
-    """What topology.make_topology is made from, in its order."""
+    """The arguments of topology.make_topology, in its order."""
 
     edges: np.ndarray
     face_offsets: np.ndarray
@@ -94,7 +94,7 @@ class EdgeArrays:
 
 
 def read_edge_arrays(obj):
-    """The arrays of a synchronized mesh."""
+    """Return the edge arrays of a synchronized mesh."""
     return EdgeArrays(
         edges=attributes.read(obj, "edges", "vertices", np.int32, 2),
         face_offsets=attributes.face_offsets(obj),
@@ -105,12 +105,12 @@ def read_edge_arrays(obj):
 
 
 def read_seams(obj):
-    """Of a synchronized mesh, which edges are seams, and which are selected."""
+    """Return which edges of a synchronized mesh are seams, and which are selected."""
     return tuple(attributes.read(obj, "edges", name, bool) for name in ("use_seam", "select"))
 
 
 def write_seams(mesh, old_edges, new_edges):
-    """Takes the seam from the old edges, given by their numbers, and sets it on the new ones, outside Edit Mode."""
+    """Clear the seam of the old edges and set it on the new ones, both given by index; outside Edit Mode."""
     for edges, value in ((old_edges, False), (new_edges, True)):
         for edge in edges.tolist():
             mesh.edges[edge].use_seam = value
@@ -118,9 +118,9 @@ def write_seams(mesh, old_edges, new_edges):
 
 
 def read_labels(obj, attribute):
-    """The labels of a synchronized mesh's faces: of an integer face attribute, or of the material slots (None).
+    """Return the labels of a synchronized mesh's faces: an integer face attribute, or the material slots (None).
 
-    None where there is no such attribute.
+    Return None if there is no such attribute.
     """
     if attribute is None:
         return attributes.read(obj, "polygons", "material_index", np.int32)
@@ -132,7 +132,7 @@ def read_labels(obj, attribute):
 
 
 def write_labels(mesh, attribute, faces, labels):
-    """Gives faces their labels, where read_labels reads them."""
+    """Write the labels of faces to where read_labels reads them."""
     if not mesh.is_editmode:
         for face, label in zip(faces.tolist(), labels.tolist()):
             if attribute is None:
@@ -153,7 +153,7 @@ def write_labels(mesh, attribute, faces, labels):
 
 
 def with_mirror_images(obj, edges, may_branch=False):
-    """The edges with their mirror images, or None; see edge_paths.with_mirror_images, or with_images."""
+    """Return the edges with their mirror images, or None; see edge_paths.with_mirror_images and with_images."""
     edge_vertices, hidden = (
         attributes.read(obj, "edges", *attribute) for attribute in (("vertices", np.int32, 2), ("hide", bool))
     )
@@ -164,25 +164,25 @@ def with_mirror_images(obj, edges, may_branch=False):
 def is_unevenly_scaled(obj):
     """Whether an object looks different in the scene than in its own space, mirrored included."""
     scale = np.abs(obj.matrix_world.to_scale())
-    return bool(obj.matrix_world.is_negative or np.ptp(scale) > _EVEN * scale.max())
+    return bool(obj.matrix_world.is_negative or np.ptp(scale) > _SCALE_TOLERANCE * scale.max())
 
 
 def is_inside_out(obj, arrays):
-    """Whether a synchronized mesh, with its arrays, is closed and encloses a negative volume."""
-    if not arrays.signed_volume < 0:  # most often, and quickly known
+    """Whether a synchronized mesh is closed and encloses a negative volume; `arrays` are its MeshArrays."""
+    if not arrays.signed_volume < 0:  # the usual case, which costs little
         return False
     uses = np.bincount(attributes.read(obj, "loops", "edge_index", np.int32), minlength=len(obj.data.edges))
     return bool(np.all(uses == 2))
 
 
 def find_edges(bm, pairs):
-    """The edges between pairs of vertex ids."""
+    """Return the edges between pairs of vertex ids."""
     bm.verts.ensure_lookup_table()
     return [bm.edges.get((bm.verts[a], bm.verts[b])) for a, b in pairs]
 
 
 def _selected_border(obj):
-    """The edges round the selected faces, in the direction in which a selected face runs along them."""
+    """Return the edges around the selected faces, in the direction of the selected face's corners."""
     arrays, selected = read_edge_arrays(obj), attributes.read(obj, "polygons", "select", bool)
     hidden = np.zeros(len(selected), dtype=bool)
     hidden[arrays.hidden_faces] = True
@@ -201,7 +201,7 @@ def _read_points(obj):
 
 
 def _shown_points(obj):
-    """Edit Mode shows the active shape key; the mesh's own vertices stay those of the reference key."""
+    """Return the points that Edit Mode shows: those of the active shape key, not of the reference key."""
     if attributes.is_edited(obj) and obj.data.shape_keys:
         editing = _editing_object(obj)
         if editing.active_shape_key_index > 0:
@@ -210,13 +210,13 @@ def _shown_points(obj):
 
 
 def _editing_object(obj):
-    """The one through which a mesh is in Edit Mode: each of those that share it has an active key of its own."""
+    """Return the object that is in Edit Mode: each of the objects that share a mesh has its own active shape key."""
     if obj.mode == "EDIT":
         return obj
     return next((other for other in bpy.data.objects if other.data == obj.data and other.mode == "EDIT"), obj)
 
 
 def _determinants(axes, corners):
-    """The sum over triangles; numpy's cross products would take ten times as long."""
+    """Return the sum of the triangles' determinants; numpy's cross products would take ten times as long."""
     (ax, bx, cx), (ay, by, cy), (az, bz, cz) = (axis[corners] for axis in axes)
     return float(np.sum(ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)))

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whole attributes of a synchronized mesh as numpy arrays: one value, or row of values, for each element.
+"""Reads whole attributes of a synchronized mesh as numpy arrays: one value, or row of values, for each element.
 
-Arrays of just Blender's own type are filled in a tenth of the time. And since Blender 4 many properties of elements are
-kept in attributes, whose arrays are handed over as they are. In Edit Mode a mesh does not show its attributes; but a
-copy of it does, which costs nothing where it shares them.
+Blender fills an array of exactly its own type ten times as fast. Since Blender 4, many properties of elements are
+stored as attributes, whose arrays are copied as they are. A mesh in Edit Mode does not show its attributes, but a copy
+of it does, and the copy costs nothing where it shares the arrays.
 """
 
 from contextlib import contextmanager
@@ -12,7 +12,7 @@ import bpy
 import numpy as np
 
 _UNSIGNED = ("vertices", "vertex_index", "edge_index", "loop_start")
-_BEHIND = {
+_ATTRIBUTES = {
     ("loops", "vertex_index"): ".corner_vert",
     ("loops", "edge_index"): ".corner_edge",
     ("edges", "select"): ".select_edge",
@@ -22,22 +22,22 @@ _BEHIND = {
     ("polygons", "select"): ".select_poly",
     ("polygons", "hide"): ".hide_poly",
     ("polygons", "material_index"): "material_index",
-}  # the attribute behind a property, which is missing where every element has the default, 0
+}  # the attribute that stores a property; it is missing if every element has the default, 0
 _TYPES = {bool: "BOOLEAN", np.int32: "INT"}
 if bpy.app.version < (5, 0, 0):
-    del _BEHIND["edges", "use_seam"]  # it has had several names
+    del _ATTRIBUTES["edges", "use_seam"]  # earlier releases named it differently
 if bpy.app.version < (4, 1, 0):
-    _BEHIND.clear()  # copies are copied
+    _ATTRIBUTES.clear()  # here a copy does not share its arrays
 
 
 def is_edited(obj):
-    """Whether the object's mesh is in Edit Mode, be it through another object that shares it."""
+    """Whether the object's mesh is in Edit Mode, possibly through another object that shares it."""
     return obj.data.is_editmode
 
 
 @contextmanager
 def with_attributes(obj):
-    """The object's mesh, or for the time being a copy of it, that shows its attributes."""
+    """Yield the object's mesh, or in Edit Mode a temporary copy of it that shows its attributes."""
     if not is_edited(obj):
         yield obj.data
         return
@@ -48,20 +48,20 @@ def with_attributes(obj):
 
 
 def read(obj, collection, name, dtype, width=1):
-    """A property of all edges, loops, polygons or triangles."""
-    if (collection, name) not in _BEHIND:
+    """Return a property of all edges, loops, polygons or triangles."""
+    if (collection, name) not in _ATTRIBUTES:
         return values(getattr(obj.data, collection), name, dtype, width)
     with with_attributes(obj) as mesh:
-        attribute = mesh.attributes.get(_BEHIND[collection, name])
+        attribute = mesh.attributes.get(_ATTRIBUTES[collection, name])
         if attribute is None:
             return np.zeros(len(getattr(mesh, collection)), dtype=dtype)
-        if attribute.data_type != _TYPES[dtype]:  # Blender 5.0 spoils that of the selection where it makes the edges
+        if attribute.data_type != _TYPES[dtype]:  # Blender 5.0 gives the selection a wrong type when it adds edges
             return values(getattr(mesh, collection), name, dtype)
         return values(attribute.data, "value", dtype)
 
 
 def values(elements, name, dtype, width=1):
-    """A property of all elements of a collection."""
+    """Return a property of all elements of a collection."""
     array = np.empty(len(elements) * width, dtype=np.uint32 if name in _UNSIGNED else dtype)
     elements.foreach_get(name, array)
     array = array.view(dtype) if name in _UNSIGNED else array
@@ -69,12 +69,12 @@ def values(elements, name, dtype, width=1):
 
 
 def face_offsets(obj):
-    """Where each face's corners begin, and where the last one's end."""
+    """Return where the corners of each face begin, and at the end the number of corners."""
     return np.append(read(obj, "polygons", "loop_start", np.int32), np.int32(len(obj.data.loops)))
 
 
 def triangles(obj, corner_vertices):
-    """The (n, 3) vertices of the triangles into which Blender divides the faces, in face order."""
+    """Return the (n, 3) vertices of the triangles into which Blender divides the faces, in face order."""
     if len(corner_vertices) == 3 * len(obj.data.polygons):  # all are triangles
         return corner_vertices.reshape(-1, 3)
     obj.data.calc_loop_triangles()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads from a mesh's layers what constrains its contours."""
+"""Reads the constraints of contours from a mesh's layers."""
 
 import bmesh
 import bpy
@@ -15,33 +15,33 @@ _FACE_TYPES = {"FLOAT": np.float32, "INT": np.int32, "BOOLEAN": bool}
 
 
 def read(obj, **settings):
-    """The Constraints that settings of the table ask for, of a synchronized mesh; None where they ask for none.
+    """Return the Constraints of a synchronized mesh for some of the CONSTRAINTS settings; None if they name no layer.
 
-    Raises a ValueError where a layer is missing.
+    Raises a ValueError if a layer is missing.
     """
-    wanted = {name: row["default"] for name, row in CONSTRAINTS.items()} | settings
-    named = any(wanted[name] for name in ("required_group", "barrier_marks", "attractor_group", "attractor_marks"))
-    if not named and wanted["region_source"] == "NONE":
+    values = {name: row["default"] for name, row in CONSTRAINTS.items()} | settings
+    named = any(values[name] for name in ("required_group", "barrier_marks", "attractor_group", "attractor_marks"))
+    if not named and values["region_source"] == "NONE":
         return None
     arrays = read_arrays(obj)
-    required = _group(obj, wanted["required_group"])
+    required = _group(obj, values["required_group"])
     return Constraints(
         points=arrays.positions,
         face_offsets=arrays.face_offsets,
         face_vertices=arrays.face_vertices,
         required=np.flatnonzero(required > 0).astype(np.int32),
-        barriers=_marked(obj, wanted["barrier_marks"]),
-        pulls=_group(obj, wanted["attractor_group"]),
-        attracting=_marked(obj, wanted["attractor_marks"]),
-        strength=wanted["attractor_strength"],
-        radius=wanted["attractor_radius"],
-        density=_density(obj, arrays, wanted["region_source"], wanted["region_layer"]),
-        region_strength=wanted["region_strength"],
+        barriers=_marked(obj, values["barrier_marks"]),
+        pulls=_group(obj, values["attractor_group"]),
+        attracting=_marked(obj, values["attractor_marks"]),
+        strength=values["attractor_strength"],
+        radius=values["attractor_radius"],
+        density=_density(obj, arrays, values["region_source"], values["region_layer"]),
+        region_strength=values["region_strength"],
     )
 
 
 def _group(obj, name):
-    """The weights of all vertices in a vertex group; empty where none is named."""
+    """Return the weights of all vertices in a vertex group; empty if no group is named."""
     if not name:
         return np.empty(0)
     group = obj.vertex_groups.get(name)
@@ -51,7 +51,7 @@ def _group(obj, name):
 
 
 def _weights_in_edit_mode(mesh, index):
-    """In half of the time in which the mesh's own vertices tell."""
+    """Read the weights from bmesh, which takes half as long as reading them from the mesh."""
     bm = bmesh.from_edit_mesh(mesh)
     layer = bm.verts.layers.deform.active
     if layer is None:
@@ -69,7 +69,7 @@ def _weights(mesh, index):
 
 
 def _marked(obj, marks):
-    """The edges with one of the marks, as vertex pairs."""
+    """Return the edges with any of the marks, as vertex pairs."""
     if not marks:
         return np.empty((0, 2), dtype=np.int32)
     readers = {
@@ -90,7 +90,7 @@ def _creases(obj):
 
 
 def _density(obj, arrays, source, name):
-    """A value for each face; None where no region is asked for."""
+    """Return a value for each face; None if no region is wanted."""
     if source == "NONE":
         return None
     if source == "GROUP":
@@ -109,12 +109,12 @@ def _face_attribute(obj, _, name):
 
 
 def _brightness(obj, arrays, name):
-    """The mean of red, green and blue, of a color attribute on vertices or corners, in bytes or floats."""
+    """Return the mean of red, green and blue of a color attribute, on vertices or corners, in bytes or floats."""
     with attributes.with_attributes(obj) as mesh:
         layer = mesh.color_attributes.get(name)
         if layer is None:
             raise ValueError(messages.no_layer("color attribute", name))
-        shown = "color_srgb" if layer.data_type == "BYTE_COLOR" else "color"  # as it is kept
-        values = attributes.values(layer.data, shown, np.float32, 4)[:, :3].mean(axis=1, dtype=float)
+        field = "color_srgb" if layer.data_type == "BYTE_COLOR" else "color"  # as it is stored
+        values = attributes.values(layer.data, field, np.float32, 4)[:, :3].mean(axis=1, dtype=float)
         at_corners = values[arrays.face_vertices] if layer.domain == "POINT" else values
     return face_means(arrays.face_offsets, at_corners)

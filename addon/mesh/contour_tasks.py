@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From what is selected in Edit Mode to the contours that are searched; changes nothing there."""
+"""Reads the selected contours of meshes in Edit Mode, to be optimized. Changes nothing in the meshes."""
 
 from dataclasses import dataclass
 
@@ -19,19 +19,19 @@ class ContourTask(ContourSearch):
     """The selected contours of one object."""
 
     obj: bpy.types.Object = None
-    mirrored: bool = False  # whether there are contours that were not selected, but their mirror images
-    asymmetric: bool = False  # whether mirror images were asked for and are not there
+    mirrored: bool = False  # whether some contours are only mirror images of the selected ones
+    asymmetric: bool = False  # whether X Mirror is on but mirror images are missing
 
     def old_edges(self):
-        """The edges of the contours that have a result, as selected."""
+        """Return the edges of the contours that have a result, as they were selected."""
         edge_lists = [outcome.edges for outcome in self.done()]
         return np.concatenate(edge_lists) if edge_lists else np.empty((0, 2), dtype=np.int32)
 
 
 def read_tasks(objects, face_mode, close=False, constraints=None):
-    """A task for each object, with an outcome for each connected piece of its selection; nothing is optimized yet.
+    """Return a task for each object, with an outcome for each connected piece of its selection; optimize nothing yet.
 
-    With `close`, chains of edges are to be closed first. `constraints` are settings that name layers.
+    With `close`, chains of edges will be closed first. `constraints` are settings that name layers.
     """
     tasks = [read_task(obj, face_mode, close) for obj in objects]
     for task in tasks:
@@ -45,7 +45,7 @@ def read_tasks(objects, face_mode, close=False, constraints=None):
 
 
 def read_task(obj, face_mode, close=False):
-    """The selected contours of one object, without its surface."""
+    """Return the selected contours of one object, without its surface."""
     synchronize(obj)
     selection = read_selection(obj, face_mode)
     mirror = obj.data.use_mirror_x and len(selection.edges) > 0
@@ -62,12 +62,12 @@ def read_task(obj, face_mode, close=False):
 
 
 def warnings(tasks):
-    """What the user should know about how the objects are measured in which something was found; before any output."""
+    """Return what the user should know about the objects with results; call it before any output is made."""
     return [warning for task in tasks if task.done() for warning in warnings_of(task)]
 
 
 def warnings_of(task):
-    """The same of one object; also for a NetworkTask."""
+    """Return the warnings about one object; also for a NetworkTask."""
     found = []
     if is_unevenly_scaled(task.obj):
         found.append(messages.uneven_scale(task.obj.name))
@@ -79,7 +79,7 @@ def warnings_of(task):
 
 
 def _outcomes(place, edges, face_mode):
-    """One outcome for each connected piece; in face mode with the part to the left."""
+    """Return one outcome for each connected piece; in face mode with the selected part to the left."""
     pieces = edge_paths.sort_edges(edges)
     given = [(loop, True) for loop in pieces.loops] + [(chain, False) for chain in pieces.chains]
     if face_mode:
@@ -92,7 +92,7 @@ def _outcomes(place, edges, face_mode):
 
 
 def _problem(outcome, loose_edges):
-    """Why a contour is not handed to the search at all; empty where it is."""
+    """Return why a contour cannot be searched at all; empty if it can."""
     loose = edge_paths.common_edges(outcome.edges, loose_edges)
     if len(loose):
         return messages.loose(loose, outcome.closed)

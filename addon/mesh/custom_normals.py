@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Carries custom normals over a change of topology: Blender stores them as angles that mean nothing afterwards."""
+"""Preserves custom normals when the topology changes: the angles that Blender stores would then be meaningless."""
 
 import bpy
 import numpy as np
@@ -7,10 +7,10 @@ import numpy as np
 _NAME = "minimum_ratio_contours_normals"
 
 
-def keep(obj, bm, faces):
-    """Notes the normals round these faces, given by their ids, before they are cut; whether there were any to keep.
+def store(obj, bm, faces):
+    """Store the normals around these faces, given by index, before they are cut. Return whether there were any.
 
-    The mesh must be synchronized. References to elements from before are dead afterwards.
+    The mesh must be synchronized. Earlier references to elements of the bmesh become invalid.
     """
     if not _are_angles(obj.data):
         return False
@@ -26,51 +26,51 @@ def keep(obj, bm, faces):
     return True
 
 
-def are_noted(mesh):
-    """Whether there are normals on a mesh that were noted and not yet set again."""
+def are_stored(mesh):
+    """Whether a mesh has stored normals that have not been restored yet."""
     return _NAME in mesh.attributes
 
 
 def restore(context):
-    """Sets the normals that were noted, on all meshes that have some; leaves Edit Mode for it and comes back."""
+    """Restore the stored normals of all meshes that have some. Leaves Edit Mode and enters it again."""
     editing = context.objects_in_mode[:]
     selected = context.selected_objects[:]
-    held = [obj for obj in editing if obj.hide_select]  # which could not be selected
-    for obj in held:
+    unselectable = [obj for obj in editing if obj.hide_select]
+    for obj in unselectable:
         obj.hide_select = False
     for obj in selected:
         obj.select_set(obj in editing)
     bpy.ops.object.mode_set(mode="OBJECT")
     for mesh in bpy.data.meshes:
-        if are_noted(mesh):
-            set_noted(mesh)
+        if are_stored(mesh):
+            restore_mesh(mesh)
     for obj in editing:
         obj.select_set(True)
     bpy.ops.object.mode_set(mode="EDIT")
     for obj in {*selected, *editing}:
         obj.select_set(obj in selected)
-    for obj in held:
+    for obj in unselectable:
         obj.hide_select = True
 
 
-def set_noted(mesh):
-    """Sets those of a mesh outside Edit Mode."""
-    noted = np.empty((len(mesh.loops), 3), dtype=np.float32)
-    mesh.attributes[_NAME].data.foreach_get("vector", noted.reshape(-1))
+def restore_mesh(mesh):
+    """Restore the stored normals of one mesh outside Edit Mode."""
+    stored = np.empty((len(mesh.loops), 3), dtype=np.float32)
+    mesh.attributes[_NAME].data.foreach_get("vector", stored.reshape(-1))
     mesh.attributes.remove(mesh.attributes[_NAME])
-    lengths = np.linalg.norm(noted, axis=1)
+    lengths = np.linalg.norm(stored, axis=1)
     normals = _read(mesh)
-    normals[lengths > 0] = noted[lengths > 0] / lengths[lengths > 0, None]
+    normals[lengths > 0] = stored[lengths > 0] / lengths[lengths > 0, None]
     mesh.normals_split_custom_set(normals)
 
 
 def _read(mesh):
-    """The normal of every corner, (n, 3)."""
+    """Return the normal of every corner, (n, 3)."""
     normals = np.empty(3 * len(mesh.loops), dtype=np.float32)
     if hasattr(mesh, "corner_normals"):
         mesh.corner_normals.foreach_get("vector", normals)
         return normals.reshape(-1, 3)
-    smooth = mesh.use_auto_smooth  # up to Blender 4.0 custom normals count only with this
+    smooth = mesh.use_auto_smooth  # up to Blender 4.0, custom normals take effect only with this
     mesh.use_auto_smooth = True
     mesh.calc_normals_split()
     mesh.loops.foreach_get("normal", normals)
@@ -79,6 +79,6 @@ def _read(mesh):
 
 
 def _are_angles(mesh):
-    """Since Blender 4.5 custom normals may also be plain vectors, which are cut like any other attribute."""
+    """Whether custom normals are angles. Since Blender 4.5 they may be vectors, cut like any other attribute."""
     vectors = mesh.attributes.get("custom_normal")
     return mesh.has_custom_normals and not (vectors and vectors.data_type == "FLOAT_VECTOR")

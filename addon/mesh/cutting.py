@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cuts contours into the faces that they cross, by bmesh alone; nothing is marked or selected here."""
+"""Cuts contours into the faces that they cross, with bmesh alone. Marks and selects nothing."""
 
 from collections import defaultdict
 from itertools import pairwise
@@ -11,32 +11,35 @@ from mathutils.geometry import intersect_point_line
 
 from ..core.contour_points import contour_points, merge_points, without_points_along_edges
 
-_FLAT = 1e-6  # of the perimeter squared: a piece of a face with less area than this has none
-_STRAIGHT = 1e-5  # of a segment: a bend smaller than this is none
+_FLAT = 1e-6  # fraction of the squared perimeter; a piece of a face with less area than this counts as flat
+_STRAIGHT = 1e-5  # fraction of a segment's length; a smaller bend counts as straight
 
 
 class Crossing(ValueError):
-    """Two contours cross each other, which cannot be cut at once."""
+    """Two contours cross each other, so they cannot be cut together."""
 
     def __init__(self, face):
-        self.face = face  # its id before the cut
+        self.face = face  # its index before the cut
         super().__init__(f"contours cross each other in face {face}: cut them one after the other")
 
 
 def cut_contours(bm, contours, merge=0.0):
-    """Cuts native results, or contours like them, into a mesh; gives for each the ids of its vertices in order.
+    """Cut native results, or similar contours, into a mesh. Return for each contour its vertex ids in order.
 
-    From one vertex of that list to the next there is an edge: a cut contour is what a contour along edges was before.
-    The ids are those after the cut, when bmesh may have renumbered what was there. All contours are of the mesh as it
-    is, and do not cross each other.
-    Points closer to a vertex than `merge` of their edge are moved onto it, so that the contour gives way by as much and
-    leaves no slivers.
+    An edge joins each vertex of that list to the next: a contour that was cut is a contour along edges. The ids are
+    those after the cut, since bmesh may renumber the old elements. All contours must be contours of the mesh before the
+    cut and must not cross each other.
+    Points closer to a vertex than the fraction `merge` of their edge are moved onto it, so that the contour moves by as
+    much and the cut leaves no slivers.
     """
     return cut_and_follow(bm, contours, [], merge)[0]
 
 
 def cut_and_follow(bm, contours, edge_paths, merge=0.0):
-    """The same; and for paths along edges, as lists of vertex ids, the ids of all vertices along them after the cut."""
+    """Cut contours like cut_contours, and follow paths along edges, given as lists of vertex ids.
+
+    Return the vertex ids of each contour, and for each path the ids of all vertices along it after the cut.
+    """
     closed = [contour.closed for contour in contours]
     paths = [without_points_along_edges(contour_points(contour), contour.closed) for contour in contours]
     paths = merge_points(paths, closed, merge, _edges_of_hidden_faces(bm, paths), _border_vertices(bm, paths))
@@ -57,7 +60,7 @@ def cuts_faces(bm, contours):
 
 
 def faces_cut(contours):
-    """The ids of the faces that hold a segment of one of the contours."""
+    """Return the ids of the faces that contain a segment of one of the contours."""
     return np.unique(np.concatenate([np.asarray(contour.segment_faces) for contour in contours]))
 
 
@@ -66,7 +69,7 @@ def _ids(vertices):
 
 
 class _Knife:
-    """What the mesh was before the first cut, and what its elements have become."""
+    """Cuts paths into a bmesh. Knows the elements from before the first cut and the pieces they are in now."""
 
     def __init__(self, bm, paths, followed=frozenset()):
         self.bm = bm
@@ -77,14 +80,14 @@ class _Knife:
         ids = {point.face for point in all_points}
         known = {vertex for point in all_points for vertex in (point.a, point.b)} | followed
         self.given = {vertex: bm.verts[vertex] for vertex in known}
-        self.pieces = {face: [bm.faces[face]] for face in ids}  # of each face
+        self.pieces = {face: [bm.faces[face]] for face in ids}  # the pieces of each face
         self.sides = {face: {_pair(edge.verts) for edge in bm.faces[face].edges} for face in ids}
-        self.vertices = {}  # by the place of their point
+        self.vertices = {}  # the new vertices, by the places of their points
         self.inner = {point.place: self._position(point) for point in all_points if self._is_inner(point)}
         self._split_edges(all_points)
 
     def cut(self, path, closed):
-        """The vertices along a path, whose faces are split where it crosses them."""
+        """Split the faces that a path crosses, and return the vertices along it."""
         first = next(i for i, point in enumerate(path) if point.place not in self.inner)
         path = path[first:] + path[: first + 1] if closed else path
         vertices, bends = [self._vertex(path[0])], []
@@ -97,7 +100,7 @@ class _Knife:
         return vertices[:-1] if closed else vertices
 
     def follow(self, path):
-        """The vertices along a path of old edges: those that it had, and those that were put between them."""
+        """Return the vertices along a path of old edges: its own vertices and the new ones between them."""
         between = defaultdict(list)
         for a, b, t in sorted(self.vertices):
             between[a, b].append(self.vertices[a, b, t])
@@ -105,7 +108,7 @@ class _Knife:
         return [self.given[path[0]]] + [v for a, b in pairwise(path) for v in (*between.get((a, b), ()), self.given[b])]
 
     def finish(self):
-        """Ids and normals of what is new."""
+        """Update the ids and normals after the last cut."""
         self.bm.verts.index_update()
         self.bm.edges.index_update()
         self.bm.faces.index_update()
@@ -116,7 +119,7 @@ class _Knife:
             vertex.normal_update()
 
     def _is_inner(self, point):
-        """Points on a diagonal lie inside a polygon, of which no side is their edge."""
+        """Whether a point lies inside its polygon, on a diagonal and not on a side."""
         return not point.is_vertex and (point.a, point.b) not in self.sides[point.face]
 
     def _position(self, point):
@@ -126,7 +129,10 @@ class _Knife:
         return self.given[point.a] if point.is_vertex else self.vertices[point.place]
 
     def _split_edges(self, all_points):
-        """Puts a vertex wherever a contour crosses an edge, from the far end on: each fraction is of what is left."""
+        """Insert a vertex wherever a contour crosses an edge.
+
+        Each edge is split from its far end on, and each fraction is relative to the length that is left.
+        """
         parameters = defaultdict(set)
         for point in all_points:
             if not point.is_vertex and point.place not in self.inner:
@@ -139,7 +145,7 @@ class _Knife:
                 left = t
 
     def _connect(self, start, end, bends, face_id):
-        """The vertices after `start` up to `end`, along edges that are there or are cut now."""
+        """Connect two vertices, along existing edges or by a cut. Return the vertices after `start` up to `end`."""
         bends = self._real_bends(start.co, bends, end.co)
         points = [self.inner[bend.place] for bend in bends]
         if not bends and self.bm.edges.get((start, end)):
@@ -148,28 +154,28 @@ class _Knife:
         sides = _sides(face, start, end)
         for side in sides:
             if len(side) == 2 or _is_flat([vertex.co for vertex in side] + points[::-1]):
-                return side[1:]  # a cut would leave a piece without area: walk along the face's side instead
+                return side[1:]  # a cut would leave a piece without area, so follow the face's side instead
         new, corner = bmesh.utils.face_split(face, start, end, coords=points)
-        new.select_set(face.select)  # a cut selected face stays selected whole
+        new.select_set(face.select)  # all pieces of a selected face stay selected
         self.pieces[face_id].append(new)
         vertices = _along(corner, start, end)
-        for vertex, bend in zip(vertices, bends):  # a diagonal knows better than the whole polygon, which may be bent
+        for vertex, bend in zip(vertices, bends):  # more exact than from the whole polygon, which may not be planar
             vertex.copy_from_vert_interp((self.given[bend.a], self.given[bend.b]), bend.t)
         return vertices
 
     def _real_bends(self, start, bends, end):
-        """Without those that lie on the straight line between their neighbors."""
+        """Return the bends that do not lie on the straight line between their neighbors."""
         points = [self.inner[bend.place] for bend in bends]
-        kept, last = [], start
+        real, last = [], start
         for bend, point, following in zip(bends, points, [*points[1:], end]):
             on_line = intersect_point_line(point, last, following)[0]
             if (point - on_line).length > _STRAIGHT * (following - last).length:
-                kept.append(bend)
+                real.append(bend)
                 last = point
-        return kept
+        return real
 
     def _piece(self, face_id, start, end):
-        """The piece of a face that has both vertices."""
+        """Return the piece of a face that has both vertices."""
         found = [piece for piece in self.pieces[face_id] if start in piece.verts and end in piece.verts]
         if not found:
             raise Crossing(face_id)
@@ -181,7 +187,7 @@ def _pair(vertices):
 
 
 def _edges_of_hidden_faces(bm, paths):
-    """The edges crossed or touched that a hidden face shares, which must stay as it is."""
+    """Return the edges that the paths cross or touch and that belong to a hidden face, which must not change."""
     bm.verts.ensure_lookup_table()
     touched = {(point.a, point.b) for path in paths for point in path if not point.is_vertex}
     edges = {pair: bm.edges.get((bm.verts[pair[0]], bm.verts[pair[1]])) for pair in touched}
@@ -189,7 +195,7 @@ def _edges_of_hidden_faces(bm, paths):
 
 
 def _border_vertices(bm, paths):
-    """The ends of edges crossed that lie on the border of the mesh, where a contour would have no side any more."""
+    """Return the ends of crossed edges that lie on the mesh border, where a contour would have only one side."""
     ends = {vertex for path in paths for point in path for vertex in (point.a, point.b)}
     return {vertex for vertex in ends if bm.verts[vertex].is_boundary}
 
@@ -204,7 +210,7 @@ def _leaves_edges(bm, paths, closed):
 
 
 def _sides(face, start, end):
-    """The two ways from one vertex of a face to another along its border."""
+    """Return the two paths from one vertex of a face to another along its border."""
     vertices = list(face.verts)
     first = vertices.index(start)
     vertices = vertices[first:] + vertices[:first]
@@ -213,14 +219,14 @@ def _sides(face, start, end):
 
 
 def _is_flat(points):
-    """Whether a polygon has no area to speak of (Newell)."""
+    """Whether the area of a polygon is negligible (by Newell's method)."""
     area = sum(((p - points[0]).cross(q - points[0]) for p, q in pairwise(points[1:])), Vector())
     perimeter = sum((q - p).length for p, q in pairwise([*points, points[0]]))
     return 0.5 * area.length <= _FLAT * perimeter**2
 
 
 def _along(corner, start, end):
-    """The vertices after `start` up to `end` along a new cut, of which `corner` is the loop at its start."""
+    """Return the vertices after `start` up to `end` along a new cut; `corner` is the cut's first loop."""
     step = "link_loop_next" if corner.vert == start else "link_loop_prev"
     vertices = []
     while not vertices or vertices[-1] != end:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Marks of edges, as seam or sharp, and the selection, in meshes in Edit Mode; and what Blender makes of new seams."""
+"""Seam and sharp marks and the selection of meshes in Edit Mode, and Live Unwrap for new seams."""
 
 from contextlib import contextmanager
 
@@ -12,7 +12,7 @@ MARKS = {"SEAM": ("seam", True), "SHARP": ("smooth", False)}
 
 
 def move_mark(mesh, output, old_edges, new_edges, selection=False):
-    """Takes a mark, and the selection, from edges and gives it to others, both as pairs of vertices; in Edit Mode."""
+    """Move a mark, and with `selection` the selection too, from edges to others, both given as vertex pairs."""
     bm = bmesh.from_edit_mesh(mesh)
     for pairs, value in ((old_edges, False), (new_edges, True)):
         edges = find_edges(bm, pairs)
@@ -25,7 +25,7 @@ def move_mark(mesh, output, old_edges, new_edges, selection=False):
 
 
 def unwrap_live(context, meshes):
-    """Blender's own seam tool unwraps again where Live Unwrap is on; with nothing selected that is all that it does."""
+    """Unwrap again if Live Unwrap is on. Blender's seam operator does that, and nothing else if nothing is selected."""
     if not context.tool_settings.use_edge_path_live_unwrap:
         return
     with nothing_selected(meshes):
@@ -46,14 +46,14 @@ def select_each(element_lists, value):
 
 
 def flush_selection(bm):
-    """Lets everything follow that hangs on what is selected, as the select mode has it."""
+    """Update all that depends on the selection, according to the select mode."""
     bm.select_flush_mode()
     bm.select_history.validate()
 
 
 @contextmanager
 def nothing_selected(meshes):
-    """Deselects everything for Blender's own operators; afterwards what is left of it is selected again."""
+    """Deselect everything for Blender's own operators, and select what is left of it again afterwards."""
     bms = [bmesh.from_edit_mesh(mesh) for mesh in meshes]
     selected = [
         [element for kind in (bm.verts, bm.edges, bm.faces) for element in kind if element.select] for bm in bms

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Networks whose contours run across faces: cut into the mesh, they are networks along edges again."""
+"""Cuts networks whose contours run across faces into the mesh, so that they are networks along edges again."""
 
 from contextlib import contextmanager
 from dataclasses import replace
@@ -18,10 +18,10 @@ _ORIGIN = "minimum_ratio_contours_origin"
 
 
 def check_when_cut(obj, plan, merge=0.0):
-    """The plan with as many contours taken as leave every region in one piece once they are cut in.
+    """Return the plan with as many contours taken as leave every region in one piece once they are cut in.
 
-    They are cut into copies of a synchronized mesh, until nothing is wrong: which faces a border divides, and whether
-    they still hang together, only the cut mesh can tell. The mesh itself stays as it is.
+    They are cut into copies of a synchronized mesh until all regions are intact: only the mesh with the cuts tells
+    which faces a border divides, and whether they are still connected. The mesh itself does not change.
     """
     if plan.region_check is not None:
         return plan
@@ -35,34 +35,34 @@ def check_when_cut(obj, plan, merge=0.0):
 
 
 def cut(obj, plan, merge=0.0):
-    """Cuts the contours that a checked plan takes into a synchronized mesh; gives the plan of the mesh as it is then.
+    """Cut the contours that a checked plan takes into a synchronized mesh. Return the plan for the mesh with the cuts.
 
-    Custom normals are noted on the mesh, to be restored once the plan is written.
+    Custom normals are stored on the mesh, to be restored once the plan is written.
     """
     if not plan.across_faces:
         return plan
-    with _opened(obj) as bm:
-        custom_normals.keep(obj, bm, cutting.faces_cut(_results(plan)))
+    with _editing(obj) as bm:
+        custom_normals.store(obj, bm, cutting.faces_cut(_results(plan)))
         given, paths = _cut(bm, plan, merge)
     synchronize(obj)
     return networks.check_cut(plan, _topology(obj), given, paths)
 
 
 def restore_normals(context, obj):
-    """Sets the custom normals that were noted, once the plan is written."""
-    if custom_normals.are_noted(obj.data):
-        custom_normals.restore(context) if attributes.is_edited(obj) else custom_normals.set_noted(obj.data)
+    """Restore the stored custom normals, once the plan is written."""
+    if custom_normals.are_stored(obj.data):
+        custom_normals.restore(context) if attributes.is_edited(obj) else custom_normals.restore_mesh(obj.data)
 
 
 def _with_lost(plan, lost):
-    """The plan in which all new paths are taken but those that are lost."""
-    everything_stays = np.arange(plan.topology.face_count)
+    """Return the plan with all new paths taken except the lost ones."""
+    unchanged = np.arange(plan.topology.face_count)
     taken = [path is not None and i not in lost for i, path in enumerate(plan.paths)]
-    return replace(plan, region_check=RegionCheck(taken, dict(lost), everything_stays, everything_stays))
+    return replace(plan, region_check=RegionCheck(taken, dict(lost), unchanged, unchanged))
 
 
 def _lost_when_cut(obj, plan, merge):
-    """Of the contours taken, those that must stay, with a face of the region that would be lost, or -1."""
+    """Return the contours of the plan that must stay after all, each with a face of the region it removes, or -1."""
     with _copy(obj) as bm:
         origin = bm.faces.layers.int.new(_ORIGIN)
         for i, face in enumerate(bm.faces):
@@ -77,9 +77,9 @@ def _lost_when_cut(obj, plan, merge):
 
 
 def _cut(bm, plan, merge):
-    """The vertices of all chains, and of all new paths, in the mesh with the contours cut into it."""
-    rounds = [np.append(chain.vertices, chain.vertices[: chain.closed]).tolist() for chain in plan.chains]
-    ids, followed = cutting.cut_and_follow(bm, _results(plan), rounds, merge)
+    """Cut the contours of a plan; return the vertices of all chains and of all new paths in the mesh with the cuts."""
+    chains = [np.append(chain.vertices, chain.vertices[: chain.closed]).tolist() for chain in plan.chains]
+    ids, followed = cutting.cut_and_follow(bm, _results(plan), chains, merge)
     paths = dict(zip(plan.moved(), ids))
     given = [path[: len(path) - chain.closed] for path, chain in zip(followed, plan.chains)]
     return given, [paths.get(i) for i in range(len(given))]
@@ -95,7 +95,7 @@ def _topology(obj):
 
 @contextmanager
 def _copy(obj):
-    """A bmesh like the mesh, in the same order."""
+    """Yield a bmesh copy of the mesh, with elements in the same order."""
     bm = bmesh.from_edit_mesh(obj.data).copy() if attributes.is_edited(obj) else _loaded(obj.data)
     try:
         yield bm
@@ -104,8 +104,8 @@ def _copy(obj):
 
 
 @contextmanager
-def _opened(obj):
-    """The mesh itself as a bmesh, whose changes are written in the end."""
+def _editing(obj):
+    """Yield the mesh itself as a bmesh, and write its changes back at the end."""
     mesh = obj.data
     if attributes.is_edited(obj):
         bm = bmesh.from_edit_mesh(mesh)
@@ -129,7 +129,7 @@ def _loaded(mesh):
 
 
 def _read_copy(bm):
-    """The topology of a bmesh, and of which face each of its faces is a piece: by an object, whose arrays are fast."""
+    """Return the topology of a bmesh and the original face of each face, by way of a mesh, whose arrays are fast."""
     mesh = bpy.data.meshes.new(_ORIGIN)
     obj = bpy.data.objects.new(_ORIGIN, mesh)
     try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What becomes of the contours found, in the meshes in Edit Mode: marks, selection, cuts, rips, parts of their own."""
+"""Makes the output of contours in meshes in Edit Mode: marks, selection, cuts, rips and separate objects."""
 
 from dataclasses import dataclass
 
@@ -10,12 +10,12 @@ from ..core import messages
 from . import custom_normals, cutting, edge_marks, separation
 from .arrays import find_edges
 
-PARTING = ("RIP", "SEPARATE")
+SPLITTING = ("RIP", "SEPARATE")
 
 
 @dataclass(frozen=True)
 class OutputOptions:
-    """What the user asked for."""
+    """The user's choice of output."""
 
     output: str
     keep_old: bool = False
@@ -24,36 +24,36 @@ class OutputOptions:
 
 
 def refuse(tasks, options):
-    """Notes as problems the contours that the output cannot be made of; changes nothing.
+    """Give each contour a problem that the output cannot be made from; change nothing in the meshes.
 
-    A result runs round the same things as the given contour, so that the mesh as it is can be asked.
+    A result separates the same things as the given contour, so this can be decided before the mesh changes.
     """
-    if options.output not in PARTING:
+    if options.output not in SPLITTING:
         return
     for task in tasks:
         done = task.done()
         chains = [(outcome.vertices, outcome.closed) for outcome in done]
-        bm = bmesh.from_edit_mesh(task.obj.data)  # faces live no longer than this
+        bm = bmesh.from_edit_mesh(task.obj.data)  # its faces are valid only as long as this reference lives
         pieces = separation.pieces_between(bm, chains)
         leaving = _leaving(pieces, task.from_faces) if options.output == "SEPARATE" else []
-        for outcome, beside in zip(done, pieces):
-            outcome.problem = _parting_problem(outcome, beside, leaving, options)
+        for outcome, sides in zip(done, pieces):
+            outcome.problem = _splitting_problem(outcome, sides, leaving, options)
 
 
 def _leaving(pieces, from_faces):
-    """The pieces that become objects of their own: in face mode those to the left, else all but the largest."""
-    parted = [(left, right) for left, right in pieces if left is not right]
+    """Return the pieces that become separate objects: in face mode those to the left, else all but the largest."""
+    separated = [(left, right) for left, right in pieces if left is not right]
     if from_faces:
-        return [left for left, _ in parted]
+        return [left for left, _ in separated]
     leaving = []
-    for group in _joined_groups(parted):
+    for group in _connected_groups(separated):
         stays = max(group, key=lambda piece: piece.size)
         leaving += [piece for piece in group if piece is not stays]
     return leaving
 
 
-def _joined_groups(pairs):
-    """Lists of what is joined by pairs, in the order of the pairs."""
+def _connected_groups(pairs):
+    """Return lists of the items that pairs connect, in the order of the pairs."""
     groups = []
     for pair in pairs:
         touched = [group for group in groups if any(item in group for item in pair)]
@@ -62,23 +62,23 @@ def _joined_groups(pairs):
     return groups
 
 
-def _parting_problem(outcome, beside, leaving, options):
+def _splitting_problem(outcome, sides, leaving, options):
     if options.output == "RIP" and not outcome.closed:
         return ""  # a slit
-    if beside[0] is beside[1]:
+    if sides[0] is sides[1]:
         return messages.inseparable(outcome)
-    parts = [(piece, piece is beside[0]) for piece in beside if piece in leaving]
+    parts = [(piece, piece is sides[0]) for piece in sides if piece in leaving]
     for piece, _ in parts:
-        piece.finish()
+        piece.grow_fully()
     outcome.leaving = tuple(on_left for piece, on_left in parts if not piece.any_hidden)
     return messages.hidden_part(outcome) if parts and not outcome.leaving else ""
 
 
 def write(context, tasks, options):
-    """Makes the output of all contours that have a result and no problem, and shows what kept others from one.
+    """Make the output of all contours that have a result and no problem; select required vertices outside the bands.
 
-    Whether anything was written or shown: a contour round which nothing could be searched is selected already, as
-    given.
+    Return whether anything was written or selected. A contour around which nothing could be searched does not count:
+    it is selected already.
     """
     outside = {task.obj: task.outside for task in tasks if len(task.outside)}
     possible = any(_is_possible(outcome, task, options) for task in tasks for outcome in task.done())
@@ -90,7 +90,7 @@ def write(context, tasks, options):
 
 
 def select_vertices(vertices_of):
-    """Shows some vertices of objects: in vertex mode, they alone selected there; other objects keep their selection."""
+    """Select only these vertices of objects, in vertex mode; other objects keep their selection."""
     bpy.ops.mesh.select_mode(type="VERT")
     for obj, vertices in vertices_of.items():
         bm = bmesh.from_edit_mesh(obj.data)
@@ -115,36 +115,36 @@ def _write(context, tasks, options):
         edge_marks.unwrap_live(context, [task.obj.data for task in tasks])
     if options.output == "SEPARATE":
         _separate(context, cuts)
-    if any(cut.normals_kept for cut in cuts):
+    if any(cut.normals_stored for cut in cuts):
         custom_normals.restore(context)
 
 
 class _Cut:
-    """The contours of one mesh, cut into its faces where they are refined, and what is made of them."""
+    """Cuts the refined contours of one mesh into its faces and makes their output."""
 
     def __init__(self, task, options):
         self.mesh, self.options, self.from_faces = task.obj.data, options, task.from_faces
         self.bm = bmesh.from_edit_mesh(self.mesh)
         self.done = task.done()
         results = [outcome.result for outcome in self.done]
-        self.changes_faces = options.output in PARTING or cutting.cuts_faces(self.bm, results)
-        self.normals_kept = self.changes_faces and custom_normals.keep(task.obj, self.bm, cutting.faces_cut(results))
-        self._forget_old(task.old_edges())
+        self.changes_faces = options.output in SPLITTING or cutting.cuts_faces(self.bm, results)
+        self.normals_stored = self.changes_faces and custom_normals.store(task.obj, self.bm, cutting.faces_cut(results))
+        self._clear_old(task.old_edges())
         ids = cutting.cut_contours(self.bm, results, options.merge)
         self.contours = [(vertices, result.closed) for vertices, result in zip(ids, results)]
         self.edges = self._edges_along(self.contours)
-        self.seeds = []  # a face of each part that is cut off
+        self.seeds = []  # one face of each part to be separated
 
     def write(self):
         if self.options.output in edge_marks.MARKS:
             edge_marks.set_mark(self.edges, self.options.output, True)
         moved = self._move_selected_faces() if self.from_faces else set()
         self.seeds = [
-            separation.face_beside(self.bm, *contour, on_left)
+            separation.adjacent_face(self.bm, *contour, on_left)
             for contour, outcome in zip(self.contours, self.done)
             for on_left in outcome.leaving
         ]
-        if self.options.output in PARTING:
+        if self.options.output in SPLITTING:
             self._rip()
         if self.from_faces:
             _tidy_selection(
@@ -158,8 +158,8 @@ class _Cut:
     def _edges_along(self, chains):
         return [edge for chain in chains for edge in separation.edges_along(self.bm, *chain)]
 
-    def _forget_old(self, old_edges):
-        """Before the cut: afterwards the given edges may be in pieces."""
+    def _clear_old(self, old_edges):
+        """Clear the marks and selection of the given edges, before the cut may split these edges."""
         edges = find_edges(self.bm, old_edges)
         if self.options.output in edge_marks.MARKS and not self.options.keep_old:
             edge_marks.set_mark(edges, self.options.output, False)
@@ -167,29 +167,29 @@ class _Cut:
             edge_marks.select_each([edges], False)
 
     def _move_selected_faces(self):
-        """The selected part lies to the left of its contours: what they passed over changes sides, and is returned."""
+        """Select the faces to the left of the contours, deselect those to the right, and return what has changed."""
         walls = set(self.edges)
-        left, right = zip(*(separation.beside(self.bm, *contour) for contour in self.contours))
-        gained = separation.reach(sum(left, []), walls, lambda face: not (face.select or face.hide))
-        lost = separation.reach(sum(right, []), walls, lambda face: face.select)
+        left, right = zip(*(separation.adjacent_faces(self.bm, *contour) for contour in self.contours))
+        gained = separation.connected_faces(sum(left, []), walls, lambda face: not (face.select or face.hide))
+        lost = separation.connected_faces(sum(right, []), walls, lambda face: face.select)
         for faces, value in ((lost, False), (gained, True)):
             for face in faces:
                 face.select_set(value)
         return gained | lost
 
     def _rip(self):
-        """The edges of both rims are the contours' from now on. A slit has no hole to fill."""
+        """Rip the mesh along the contours, whose edges are those of both rims from now on. A slit leaves no hole."""
         loops = self._edges_along(contour for contour in self.contours if contour[1])
         slits = self._edges_along(contour for contour in self.contours if not contour[1])
         rims = bmesh.ops.split_edges(self.bm, edges=loops)["edges"]
         if self.options.fill_holes:
             for face in bmesh.ops.holes_fill(self.bm, edges=rims, sides=0)["faces"]:
-                face.hide_set(False)  # it takes after a neighbor
+                face.hide_set(False)  # a new face may inherit this from a hidden neighbor
         self.edges = rims + bmesh.ops.split_edges(self.bm, edges=slits)["edges"]
 
 
 def _tidy_selection(faces):
-    """In face mode edges and vertices are selected where a face of theirs is; cuts and rips leave others behind."""
+    """Select exactly the edges and vertices of selected faces, as face mode requires; cuts and rips leave others."""
     for element in {element for face in faces for element in (*face.edges, *face.verts)}:
         if not any(face.select for face in element.link_faces):
             element.select_set(False)
@@ -199,11 +199,11 @@ def _tidy_selection(faces):
 
 
 def _separate(context, cuts):
-    """Makes each part an object of its own; the rest keeps its selection."""
+    """Make each part a separate object; the rest keeps its selection."""
     with edge_marks.nothing_selected([obj.data for obj in context.objects_in_mode_unique_data]):
         for cut in cuts:
             for seed in cut.seeds:
-                if seed.is_valid:  # else another contour of the same part came first
+                if seed.is_valid:  # otherwise the part was separated already, for another contour
                     seed.select_set(True)
                     bpy.ops.mesh.select_linked(delimit=set())
                     bpy.ops.mesh.separate(type="SELECTED")

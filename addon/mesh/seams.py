@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The seams of a mesh as a network of contours, and back."""
+"""Reads the seams of a mesh as a network of contours, and writes them back."""
 
 from ..core.chains import make_network
 from ..core.outcomes import network_outcomes
@@ -9,9 +9,9 @@ from .arrays import read_edge_arrays, read_seams, with_mirror_images, write_seam
 
 
 def read_network(obj, selected_only=False):
-    """A synchronized mesh's seams; those among its selected edges move, or all.
+    """Return the network of a synchronized mesh's seams, of which all may move, or only those among its selected edges.
 
-    Every island of the UV map stays one island, on the same side of its seams.
+    Every UV island stays one island, on the same side of its seams.
     """
     topology = make_topology(**vars(read_edge_arrays(obj)))
     seams, selected = read_seams(obj)
@@ -20,13 +20,13 @@ def read_network(obj, selected_only=False):
 
 
 def lacks_images(obj):
-    """Whether selected seams of a synchronized mesh should have mirror images, and some have none."""
+    """Whether X Mirror is on and some selected seam of a synchronized mesh has no mirror image."""
     seams, selected = read_seams(obj)
     return obj.data.use_mirror_x and _with_images(obj, seams & selected) is None
 
 
 def _images(obj, topology, chosen):
-    """The chosen edges and, where X Mirror is on and the mesh is symmetric, their mirror images."""
+    """Return the chosen edges and, if X Mirror is on and the mesh is symmetric, their mirror images."""
     both = _with_images(obj, chosen) if obj.data.use_mirror_x and chosen.any() else None
     if both is None:
         return chosen
@@ -41,13 +41,13 @@ def _with_images(obj, chosen):
 
 
 def only_seams_selected(obj):
-    """Whether the selection of a synchronized mesh is one of seams; then it moves with them."""
+    """Whether only seams of a synchronized mesh are selected; then the selection moves with them."""
     seams, selected = read_seams(obj)
     return not (selected & ~seams).any()
 
 
 def write(obj, plan, selection=False):
-    """Moves the seams; in Edit Mode the selection along them too, where that is wanted."""
+    """Move the seams and, with `selection` in Edit Mode, the selection along them."""
     if attributes.is_edited(obj):
         edge_marks.move_mark(obj.data, "SEAM", plan.old_edges(), plan.new_edges(), selection)
     else:
@@ -56,5 +56,5 @@ def write(obj, plan, selection=False):
 
 
 def outcomes(place, plan):
-    """What became of each chain that could have moved."""
+    """Return the outcome of each chain that could have moved."""
     return network_outcomes(place, plan, lambda _: "a seam whose move would join or split islands")

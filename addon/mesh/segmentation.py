@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The borders between the regions of a labeling as a network of contours, and back to labels."""
+"""Reads the borders between the regions of a labeling as a network of contours, and writes the labels back."""
 
 from dataclasses import dataclass, replace
 
@@ -16,19 +16,19 @@ SOURCES = ("FACE_SETS", "MATERIAL", "ATTRIBUTE")
 
 
 class NoLabels(ValueError):
-    """The mesh has no such labels; the message says what to do."""
+    """The mesh does not have these labels; the message says what to do."""
 
 
 @dataclass(frozen=True)
 class Labeling:
-    """The labels of a mesh's faces, and where they stand: a face attribute's name, or None for the material slots."""
+    """The labels of a mesh's faces, and where they are stored."""
 
-    attribute: str
+    attribute: str  # the name of a face attribute; None for the material slots
     labels: np.ndarray
 
 
 def read_labeling(obj, source, attribute=""):
-    """Raises NoLabels."""
+    """Return the labels of a synchronized mesh's faces. Raises NoLabels if there are none."""
     if source not in SOURCES:
         raise ValueError(f"the source is {source!r}; it must be one of {', '.join(SOURCES)}")
     name = {"FACE_SETS": FACE_SETS, "MATERIAL": None, "ATTRIBUTE": attribute}[source]
@@ -39,21 +39,18 @@ def read_labeling(obj, source, attribute=""):
 
 
 def read_network(obj, labeling):
-    """The borders between a synchronized mesh's regions.
-
-    A region is one connected piece of one label.
-    """
+    """Return the network of the borders between a synchronized mesh's regions: connected pieces of one label each."""
     topology = make_topology(**vars(read_edge_arrays(obj)))
     return make_network(topology, label_borders(topology, labeling.labels))
 
 
 def new_labels(labeling, plan):
-    """The labels of all faces once the borders have moved: regions are named by a face that had their label before."""
+    """Return the labels of all faces after the borders have moved; a region's id is a face with its old label."""
     return labeling.labels[plan.region_check.after]
 
 
 def write(obj, labeling, plan):
-    """Labels the faces anew; where contours were cut in, the pieces of a face come with the label of the whole."""
+    """Write the new labels of the faces. The pieces of faces that were cut start with the label of the whole face."""
     if len(labeling.labels) != plan.topology.face_count:
         labeling = replace(labeling, labels=read_labels(obj, labeling.attribute))
     labels = new_labels(labeling, plan)
@@ -62,5 +59,5 @@ def write(obj, labeling, plan):
 
 
 def outcomes(place, labeling, plan):
-    """What became of each border that could have moved."""
+    """Return the outcome of each border that could have moved."""
     return network_outcomes(place, plan, lambda region: messages.lost_region(labeling.labels, region))

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the user meets: operators, panels, menus, overlays and preferences. Imports mesh/ and core/."""
+"""The user interface: operators, panels, menus, overlays and preferences. Imports mesh/ and core/."""

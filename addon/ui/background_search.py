@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Searches that may take long: with their progress shown, and canceled with ESC.
+"""Runs searches that may take long, shows their progress, and cancels them with ESC.
 
-Blender hears no key while an operator runs. So an operator that the user starts searches in a thread of its own, and
-waits for it by a timer; scripts and the redo panel, which have to wait, search in the thread they call from.
+Blender handles no key while an operator runs. So an operator that the user starts searches in its own thread and polls
+it with a timer. Scripts and the redo panel have to wait, so they search in the calling thread.
 """
 
 import threading
@@ -14,8 +14,8 @@ import bpy
 from ..core import messages, native
 from ..mesh.surface_cache import are_current
 
-_WITHOUT_TIMER = 0.3  # seconds; what is done sooner needs no timer, and nothing flickers
-_INTERVAL = 0.1  # seconds between two looks at a search
+_WITHOUT_TIMER = 0.3  # seconds; a shorter search needs no timer, and nothing flickers
+_INTERVAL = 0.1  # seconds between two polls of a search
 
 
 class Cancelled(Exception):
@@ -23,7 +23,7 @@ class Cancelled(Exception):
 
 
 class BackgroundSearch:
-    """A search in a thread of its own: a function that takes a progress callback and leaves bpy alone."""
+    """Runs a search in its own thread: a function that takes a progress callback and does not use bpy."""
 
     def __init__(self, search):
         self.fraction = 0.0  # done
@@ -34,16 +34,16 @@ class BackgroundSearch:
         self._thread.start()
 
     def cancel(self):
-        """The search ends the next time that it tells of its progress."""
+        """Let the search end the next time it reports its progress."""
         self._canceled.set()
 
     def wait(self, seconds=None):
-        """Whether the search has ended, after so many seconds at most."""
+        """Wait for at most so many seconds. Return whether the search has ended."""
         self._thread.join(seconds)
         return not self._thread.is_alive()
 
     def finish(self):
-        """Waits for the end; raises what the search raised, Cancelled where it was canceled."""
+        """Wait for the end. Raise the exception of the search, or Cancelled if it was canceled."""
         self.wait()
         if self._error:
             raise self._error
@@ -51,7 +51,7 @@ class BackgroundSearch:
     def _run(self):
         try:
             self._search(self._progress)
-        except Exception as error:  # for the thread that waits
+        except Exception as error:  # raised again in the waiting thread
             self._error = error
 
     def _progress(self, fraction):
@@ -62,17 +62,17 @@ class BackgroundSearch:
 
 
 class SearchOperator:
-    """An operator in three steps, with a list of tasks that passes from one to the next.
+    """An operator in three steps, which pass on a list of tasks.
 
     read(context)                        reads the meshes into tasks, each with its `obj` and `surface`
     optimize(tasks, settings, progress)  searches, without bpy and the operator: a static method
-    apply(context, tasks)                writes the meshes, tells the user and gives what the operator returns
+    apply(context, tasks)                writes the meshes, informs the user and returns the operator's result
 
-    settings() gives what `optimize` takes; conclude(context, level, message) tells the user why nothing was changed.
-    Afterwards nothing is kept: operators stay alive for the redo panel.
+    settings() returns the argument of `optimize`; conclude(context, level, message) tells the user why nothing changed.
+    The operator releases the tasks at the end, since Blender keeps it alive for the redo panel.
     """
 
-    if TYPE_CHECKING:  # the operator's own
+    if TYPE_CHECKING:  # defined by the operator
         bl_label: str
         read: Any
         optimize: Any
@@ -95,8 +95,8 @@ class SearchOperator:
         return self.apply(context, tasks)
 
     def invoke(self, context, event):
-        nobody_could_press_a_key = bpy.app.background or context.window is None
-        if nobody_could_press_a_key or native.problem():
+        noninteractive = bpy.app.background or context.window is None
+        if noninteractive or native.problem():
             return self.execute(context)
         tasks = self.read(context)
         search = BackgroundSearch(partial(self.optimize, tasks, self.settings()))
@@ -111,7 +111,7 @@ class SearchOperator:
 
     def modal(self, context, event):
         if event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
-            self._search.cancel()  # nobody waits for its end
+            self._search.cancel()  # without waiting for its end
             self._end(context)
             return self.conclude(context, "INFO", messages.CANCELLED)
         if event.type == "TIMER":
@@ -127,7 +127,7 @@ class SearchOperator:
         return self.apply(context, tasks)
 
     def cancel(self, context):
-        """Blender ends the operator, as when another file is opened."""
+        """Stop the search when Blender ends the operator, for example because another file is opened."""
         self._search.cancel()
         self._search.wait()
         self._end(context)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The entries in Blender's own menus; F3 finds them by these words."""
+"""The entries in Blender's own menus, whose texts the menu search (F3) finds."""
 
 import bpy
 
@@ -8,7 +8,7 @@ _INVOKED = "INVOKE_REGION_WIN"
 
 
 class VIEW3D_MT_minimum_ratio_contours(bpy.types.Menu):
-    """What becomes of the contours, in one step"""
+    """Optimize the selected contours and choose their output in one step"""
 
     bl_idname = "VIEW3D_MT_minimum_ratio_contours"
     bl_label = "Optimize Contour and"
@@ -26,7 +26,7 @@ class VIEW3D_MT_minimum_ratio_contours(bpy.types.Menu):
 
 
 def _separate(layout):
-    """What follows is invoked: menus opened by a key would execute it, without progress, and nothing live."""
+    """Start a group whose operators are invoked: menus opened with a key would execute them, without progress."""
     layout.separator()
     layout.operator_context = _INVOKED
 

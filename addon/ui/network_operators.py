@@ -18,12 +18,12 @@ from .operators import CutSettings, InEditMode, NetworkSettings
 
 
 class NetworkOperator(NetworkSettings, CutSettings, InEditMode, SearchOperator):
-    """What both have in common."""
+    """The common part of the operators on networks."""
 
     bl_options = {"REGISTER", "UNDO"}
     optimize = staticmethod(networks.optimize_networks)
 
-    if TYPE_CHECKING:  # the operator's own
+    if TYPE_CHECKING:  # defined by the operator
         noun: str
         layout: bpy.types.UILayout
         _read_network: Any
@@ -83,8 +83,8 @@ class NetworkOperator(NetworkSettings, CutSettings, InEditMode, SearchOperator):
 
 
 class MESH_OT_optimize_seams(NetworkOperator, bpy.types.Operator):
-    """Move all seams to the part boundaries nearby, where the surface is most concave for their length. \
-Where seams meet they stay together, and every island stays one island"""
+    """Move all seams to the part boundaries nearby, where the surface is most concave relative to their length. \
+Seams that meet stay together, and every island stays one island"""
 
     bl_idname = "mesh.optimize_seams"
     bl_label = "Optimize Seams"
@@ -118,8 +118,8 @@ Where seams meet they stay together, and every island stays one island"""
 
 
 class MESH_OT_optimize_segmentation(NetworkOperator, bpy.types.Operator):
-    """Move the borders between all regions to the part boundaries nearby; the faces' labels move with them. \
-Where three regions meet they stay together, and no region is lost"""
+    """Move the borders between all regions to the part boundaries nearby, and the labels of the faces with them. \
+Borders that meet stay together, and no region is lost"""
 
     bl_idname = "mesh.optimize_segmentation"
     bl_label = "Optimize Segmentation"
@@ -127,15 +127,15 @@ Where three regions meet they stay together, and no region is lost"""
 
     source: EnumProperty(
         name="Regions",
-        description="What tells the regions apart",
+        description="Where the labels of the regions are stored",
         items=(
             ("FACE_SETS", "Face Sets", "The face sets of Sculpt Mode"),
             ("MATERIAL", "Materials", "The material slots of the faces"),
-            ("ATTRIBUTE", "Attribute", "An integer attribute of the faces"),
+            ("ATTRIBUTE", "Attribute", "An integer face attribute"),
         ),
         default="FACE_SETS",
     )
-    attribute: StringProperty(name="Attribute", description="The name of an integer attribute of the faces", default="")
+    attribute: StringProperty(name="Attribute", description="Name of an integer face attribute", default="")
 
     def _read_network(self, task):
         task.details = segmentation.read_labeling(task.obj, self.source, self.attribute)
@@ -151,7 +151,7 @@ Where three regions meet they stay together, and no region is lost"""
         segmentation.write(task.obj, task.details, plan)
 
     def _written(self, context):
-        """Nothing follows from labels."""
+        """Do nothing: no other data depends on labels."""
 
     def _draw_source(self, layout, context):
         layout.prop(self, "source")

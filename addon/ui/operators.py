@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operators: they alone talk to the user."""
+"""The operator on selected contours, and the properties and reports that it shares with the other operators."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +14,7 @@ from .background_search import SearchOperator
 
 
 class NetworkSettings:
-    """The properties of the settings table that every operator that optimizes has."""
+    """The properties from the settings table that all operators have in common."""
 
     refinement: IntProperty(**SETTINGS["refinement"])
     regular_iterations: IntProperty(**SETTINGS["regular_iterations"])
@@ -36,19 +36,19 @@ class NetworkSettings:
 
 
 class ContourSettings(NetworkSettings):
-    """All of them, for the operators that optimize contours by themselves."""
+    """All properties from the settings table, for the operators on selected contours."""
 
     ends: EnumProperty(**SETTINGS["ends"])
     close: BoolProperty(
         name="Close Chains",
-        description="Close each open chain of edges round the limb that it lies on before it is optimized, so that a "
-        "quarter of a loop is enough. Stay Near then holds the contour near the loop so closed",
+        description="First close each open chain of edges around the limb that it lies on, so that a quarter of a "
+        "loop is enough. Stay Near then holds the contour near this closed loop",
         default=False,
     )
 
 
 class ContourConstraints:
-    """The properties of the constraints table, for operators on selected contours."""
+    """The properties from the constraints table, for the operators on selected contours."""
 
     required_group: StringProperty(**CONSTRAINTS["required_group"])
     barrier_marks: EnumProperty(**CONSTRAINTS["barrier_marks"])
@@ -69,8 +69,8 @@ class CutSettings:
 
     merge: FloatProperty(
         name="Merge",
-        description="Points of a refined contour closer to a vertex than this share of their edge are moved onto it, "
-        "so that the cut leaves no slivers; the contour gives way by as much. 0: cut where it was found",
+        description="With Refinement: move points of the contour closer to a vertex than this fraction of their edge "
+        "onto it, so that the cut leaves no slivers; 0: cut exactly where the contour was found",
         default=0.0,
         min=0.0,
         max=0.5,
@@ -78,38 +78,38 @@ class CutSettings:
 
 
 class ContourOutput(CutSettings):
-    """The properties that say what becomes of a contour, for every operator that outputs one."""
+    """The properties that choose the output of contours, for the operators on selected contours."""
 
-    if TYPE_CHECKING:  # the operator's own
+    if TYPE_CHECKING:  # defined by the operator
         max_turn: float
         conclude: Any
 
     output: EnumProperty(
         name="Output",
-        description="What becomes of the contour found. Refined contours are cut into the faces in any case",
+        description="What is made of the contour found. Refined contours are always cut into the faces",
         items=(
             ("SELECT", "Select", "Select it"),
             ("SEAM", "Seam", "Mark it as a UV seam"),
             ("SHARP", "Sharp", "Mark it as sharp edges"),
-            ("CUT", "Cut", "Cut it into the faces that it crosses; a contour along edges is selected"),
-            ("RIP", "Rip", "Open the mesh along it; both rims stay in this object"),
-            ("SEPARATE", "Separate", "Make an object of its own of each part that it cuts off"),
+            ("CUT", "Cut", "Cut it into the faces that it crosses and select it"),
+            ("RIP", "Rip", "Open the mesh along it; both sides stay in this object"),
+            ("SEPARATE", "Separate", "Make a separate object of each part that it cuts off; the largest part stays"),
         ),
         default="SELECT",
     )
     keep_old: BoolProperty(
         name="Keep Old",
-        description="Leave seams or sharp edges along the given contour where they are; otherwise they move with it",
+        description="Keep the marks along the given contour; otherwise they move with it",
         default=False,
     )
     fill_holes: BoolProperty(
         name="Fill Holes",
-        description="Close both rims of a ripped or separated loop with a face each",
+        description="Close each rim of a ripped or separated loop with a face",
         default=False,
     )
 
     def apply(self, context, tasks):
-        """Makes the output of what was found and says what became of it; the operator's last step."""
+        """Make the output of the contours found and report it; the operator's last step."""
         options = outputs.OutputOptions(self.output, self.keep_old, self.fill_holes, self.merge)
         warnings = contour_tasks.warnings(tasks)
         outputs.refuse(tasks, options)
@@ -120,18 +120,20 @@ class ContourOutput(CutSettings):
 
 
 class Folds:
-    """What is unfolded in the redo panel, which Blender cannot divide into panels."""
+    """Which sections of the redo panel are unfolded, since Blender cannot divide it into subpanels."""
 
     show_more: BoolProperty(
         name="More Settings", description="Show the settings that are seldom changed", options={"HIDDEN"}
     )
-    show_constraints: BoolProperty(name="Constraints", description="Show what the contours keep to", options={"HIDDEN"})
+    show_constraints: BoolProperty(
+        name="Constraints", description="Show the constraints from layers of the mesh", options={"HIDDEN"}
+    )
 
 
 class InEditMode:
-    """Where the operators can be called, with the reason where they cannot, and how they talk to the user."""
+    """Makes operators available in Edit Mode only, with the reason elsewhere, and reports to the user."""
 
-    if TYPE_CHECKING:  # every operator's
+    if TYPE_CHECKING:  # defined by every operator
         report: Any
         poll_message_set: Any
 
@@ -147,21 +149,22 @@ class InEditMode:
         return False
 
     def conclude(self, context, level, message, outcomes=(), changed=False):
-        """Says in panel and status bar what came of it; gives what the operator returns."""
+        """Show the outcome in the panel and the status bar. Return the operator's result."""
         panels.show_result(context, message, outcomes)
         self.report({level}, message)
         return {"FINISHED"} if changed else {"CANCELLED"}
 
 
 def in_face_mode(context):
-    """Whether faces alone are selected, so that their borders are the contours."""
+    """Whether face select is the only select mode, so that borders of selected faces are the contours."""
     return tuple(context.tool_settings.mesh_select_mode) == (False, False, True)
 
 
 class MESH_OT_optimize_contour(
     ContourSettings, ContourConstraints, ContourOutput, Folds, InEditMode, SearchOperator, bpy.types.Operator
 ):
-    """Move each selected loop or chain to the part boundary nearby, where the surface is most concave for its length"""
+    """Move each selected loop or chain to the part boundary nearby, where the surface is most concave relative to \
+its length"""
 
     bl_idname = "mesh.optimize_contour"
     bl_label = "Optimize Contour"
@@ -177,7 +180,7 @@ class MESH_OT_optimize_contour(
 
 
 def properties_of(*mixins):
-    """The properties that mixins give an operator, by name."""
+    """Return the properties that mixins define, by name."""
     classes = [cls for mixin in mixins for cls in mixin.__mro__]
     return {name: prop for cls in classes for name, prop in cls.__dict__.get("__annotations__", {}).items()}
 

@@ -1,29 +1,29 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws bands and contours over the surface in the 3D views. The mesh itself is never touched."""
+"""Draws bands and contours over the surface in 3D Viewports. Never changes the mesh."""
 
 import bpy
 import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
-_OFFSET, _FLAT_OFFSET = 0.0025, 1e-5  # towards the eye, in perspective and without
+_OFFSET, _FLAT_OFFSET = 0.0025, 1e-5  # toward the eye, in perspective and orthographic views
 _BAND_ALPHA = 0.25
 _GIVEN_WIDTH, _FOUND_WIDTH, _PIN_SIZE = 2.0, 4.0, 10.0  # in points
 _DIRECTION_WIDTH = 1.5
-_DIRECTION_COLOR = (1.0, 1.0, 0.35, 1.0)  # tells itself from the blue of valleys and from marks on edges
+_DIRECTION_COLOR = (1.0, 1.0, 0.35, 1.0)  # stands out from the blue of valleys and from marked edges
 
 
 class Overlay:
-    """What is drawn of some objects until `remove` is called."""
+    """Draws shapes over some objects until `remove` is called."""
 
     def __init__(self, kind=None):
         self._kind = kind or _Batches
-        self._items = []  # (matrix, what this kind of batches is made from)
+        self._items = []  # (matrix, the argument of this kind of batches)
         self._batches = None
         self._handle = bpy.types.SpaceView3D.draw_handler_add(self._draw, (), "WINDOW", "POST_VIEW")
 
     def show(self, items):
-        """Draws these from now on: pairs of a matrix and Shapes, or what else the kind takes."""
+        """Draw these items from now on: pairs of a matrix and Shapes, or whatever the kind takes."""
         self._items, self._batches = items, None
         _redraw()
 
@@ -37,7 +37,7 @@ class Overlay:
         context = bpy.context
         if self._batches is None:
             self._batches = [(matrix, self._kind(shapes)) for matrix, shapes in self._items]
-        projection = _towards_eye(gpu.matrix.get_projection_matrix(), context.region_data)
+        projection = _toward_eye(gpu.matrix.get_projection_matrix(), context.region_data)
         gpu.state.depth_test_set("NONE" if _seen_through(context.space_data.shading) else "LESS_EQUAL")
         gpu.state.blend_set("ALPHA")
         try:
@@ -53,7 +53,7 @@ class Overlay:
 
 
 class _Batches:
-    """The shapes of one object on the graphics card."""
+    """The shapes of one object, on the GPU."""
 
     def __init__(self, shapes):
         self._fill, self._line = _shader("UNIFORM_COLOR"), _shader("POLYLINE_UNIFORM_COLOR")
@@ -87,7 +87,7 @@ class _Batches:
 
 
 class Directions:
-    """The directions of one object, as the ends of lines, on the graphics card."""
+    """The directions of one object, as the ends of lines, on the GPU."""
 
     def __init__(self, ends):
         self._line = _shader("POLYLINE_UNIFORM_COLOR")
@@ -107,7 +107,7 @@ def _draw_lines(context, shader, batch, color, width):
 
 
 def _shader(name):
-    """Blender 4.0 dropped the prefix that told flat drawing from drawing in space."""
+    """Return a builtin shader. Blender 4.0 dropped the prefix that distinguished 2D from 3D drawing."""
     return gpu.shader.from_builtin(name if bpy.app.version >= (4, 0, 0) else f"3D_{name}")
 
 
@@ -116,17 +116,17 @@ def _point_shader():
 
 
 def _batch(shader, kind, points):
-    """None where there is nothing to draw: some drivers take empty batches amiss."""
+    """Return a batch, or None if there is nothing to draw: some drivers fail on empty batches."""
     return batch_for_shader(shader, kind, {"pos": np.ascontiguousarray(points)}) if len(points) else None
 
 
 def _seen_through(shading):
-    """Whether the view shows what lies behind the surface."""
+    """Whether the viewport shows what lies behind the surface."""
     return {"SOLID": shading.show_xray, "WIREFRAME": shading.show_xray_wireframe}.get(shading.type, False)
 
 
-def _towards_eye(projection, view):
-    """A projection that draws a little nearer, as Blender's GPU_polygon_offset does for its own edges."""
+def _toward_eye(projection, view):
+    """Return a projection that draws slightly nearer, as Blender's GPU_polygon_offset does for its own edges."""
     shifted = projection.copy()
     if projection[3][3] < 0.5:  # perspective: a fraction of the distance
         shifted[2][3] *= 1 + _OFFSET

@@ -12,8 +12,8 @@ from . import show_directions
 
 OPERATOR = "mesh.optimize_contour"
 NETWORK_OPERATORS = ("mesh.optimize_seams", "mesh.optimize_segmentation")
-_SHARED = (*NETWORK, "merge")  # what networks take from the settings
-_SHOWN = 8  # contours with their numbers in the panel
+_SHARED = (*NETWORK, "merge")  # the settings that networks take from the main panel
+_SHOWN = 8  # contours whose numbers the panel shows
 
 
 class ContourNumbers(bpy.types.PropertyGroup):
@@ -31,14 +31,14 @@ class ContourNumbers(bpy.types.PropertyGroup):
 
 
 class LastResult(bpy.types.PropertyGroup):
-    """What the last run of an operator said and found."""
+    """The message and results of the last run of an operator."""
 
     message: StringProperty()
     contours: CollectionProperty(type=ContourNumbers)
 
 
 def show_result(context, message, outcomes):
-    """Puts a message and the numbers of the results into the panel."""
+    """Show a message and the numbers of the results in the panel."""
     last = context.window_manager.minimum_ratio_contours
     last.message = message
     last.contours.clear()
@@ -48,7 +48,7 @@ def show_result(context, message, outcomes):
 
 
 def remember(context, values, operator=OPERATOR):
-    """Lets the operator's next run from the panel or a menu start from these values, of those that it has."""
+    """Let the operator's next run from the panel or a menu start from these values; skip those it does not have."""
     settings = context.window_manager.operator_properties_last(operator)
     for name, value in values.items():
         if hasattr(settings, name):
@@ -56,7 +56,7 @@ def remember(context, values, operator=OPERATOR):
 
 
 def draw_redo(layout, operator, obj):
-    """All settings of an operator on selected contours; the many that are seldom changed unfold."""
+    """Draw all settings of an operator on selected contours; those that are seldom changed can be unfolded."""
     draw_settings(layout, operator)
     if _unfolded(layout, operator, "show_more"):
         draw_more_settings(layout, operator)
@@ -74,7 +74,7 @@ def _unfolded(layout, operator, name):
 
 
 def draw_settings(layout, settings):
-    """The main settings, for the panel and the redo panel alike."""
+    """Draw the main settings, for both the sidebar and the redo panel."""
     layout.use_property_split = True
     layout.use_property_decorate = False
     layout.prop(settings, "output")
@@ -89,12 +89,12 @@ def draw_settings(layout, settings):
 
 
 def draw_search_settings(layout, settings):
-    """Those that say where and how is searched."""
+    """Draw the settings of the search."""
     column = layout.column()
     column.enabled = not settings.whole_surface
     column.prop(settings, "width")
     column.prop(settings, "reach")
-    row = layout.row(heading="Whole")  # the name as one would not fit into a sidebar of the usual width
+    row = layout.row(heading="Whole")  # the whole name would not fit into a sidebar of the default width
     row.prop(settings, "whole_surface", text="Surface")
     _draw_properties(layout, settings, MAIN)
 
@@ -110,14 +110,14 @@ def draw_more_settings(layout, settings):
 
 
 def _draw_properties(layout, settings, names):
-    """Those that the operator has."""
+    """Draw those of the properties that the operator has."""
     for name in names:
         if hasattr(settings, name):
             layout.prop(settings, name)
 
 
 def draw_constraints(layout, settings, obj):
-    """What contours keep to; names of layers are picked from those of the active object."""
+    """Draw the constraints; names of layers are picked from those of the active object."""
     layout.use_property_split = True
     layout.use_property_decorate = False
     layout.prop_search(settings, "required_group", obj, "vertex_groups")
@@ -139,7 +139,7 @@ def draw_constraints(layout, settings, obj):
 
 
 def _draw_marks(layout, settings, name):
-    """Below their label: beside it three names would not fit into a sidebar of the usual width."""
+    """Draw marks below their label: next to it, three names would not fit into a sidebar of the default width."""
     column = layout.column(align=True)
     column.use_property_split = False
     column.label(text=CONSTRAINTS[name]["name"])
@@ -147,7 +147,7 @@ def _draw_marks(layout, settings, name):
 
 
 class InSidebar:
-    """Where the panels are."""
+    """The place of the panels."""
 
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
@@ -155,7 +155,7 @@ class InSidebar:
 
 
 class InMainPanel(InSidebar):
-    """Where the panels below the main one are."""
+    """The place of the panels below the main one."""
 
     bl_parent_id = "VIEW3D_PT_minimum_ratio_contours"
 
@@ -174,8 +174,8 @@ class VIEW3D_PT_minimum_ratio_contours(InSidebar, bpy.types.Panel):
         column.scale_y = 1.3
         column.operator(OPERATOR, icon="MOD_EDGESPLIT")
         column.operator("mesh.adjust_contour", icon="HIDE_OFF")
-        # The panel's settings are the operator's own: those of the last run, which the next run from the panel takes.
-        draw_settings(layout.column(), _remembered(context))
+        # The panel shows the operator's last properties, which the next run from the panel takes.
+        draw_settings(layout.column(), _last_properties(context))
 
     def draw_header_preset(self, context):
         bpy.types.VIEW3D_PT_minimum_ratio_contours_presets.draw_panel_header(self.layout)
@@ -197,7 +197,7 @@ class VIEW3D_PT_minimum_ratio_contours_more(InMainPanel, bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
-        draw_more_settings(self.layout.column(), _remembered(context))
+        draw_more_settings(self.layout.column(), _last_properties(context))
 
 
 class VIEW3D_PT_minimum_ratio_contours_constraints(InMainPanel, bpy.types.Panel):
@@ -205,7 +205,7 @@ class VIEW3D_PT_minimum_ratio_contours_constraints(InMainPanel, bpy.types.Panel)
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
-        draw_constraints(self.layout.column(), _remembered(context), context.object)
+        draw_constraints(self.layout.column(), _last_properties(context), context.object)
 
 
 class VIEW3D_PT_minimum_ratio_contours_networks(InMainPanel, bpy.types.Panel):
@@ -237,13 +237,13 @@ class VIEW3D_PT_minimum_ratio_contours_curvature(InMainPanel, bpy.types.Panel):
 
 
 def _draw_network_operator(layout, context, name, icon):
-    """A button whose operator takes the settings of the panel above it."""
-    button, settings = layout.operator(name, icon=icon), _remembered(context)
+    """Draw a button whose operator takes the settings of the main panel."""
+    button, settings = layout.operator(name, icon=icon), _last_properties(context)
     for setting in _SHARED:
         setattr(button, setting, getattr(settings, setting))
 
 
-def _remembered(context):
+def _last_properties(context):
     return context.window_manager.operator_properties_last(OPERATOR)
 
 
@@ -256,7 +256,7 @@ def _draw_result(layout, context, last):
 
 
 def _draw_numbers(box, context, numbers, several):
-    """Of one contour all numbers. Of several the reasons, which the message gives too, but not of which of them."""
+    """Draw all numbers of a single contour. For several, draw the reason of each, which the message does not assign."""
     icon = "CHECKMARK" if numbers.status == "improved" else "DOT"
     box = box.column(align=True)
     _draw_text(box, context, f"{numbers.place}: {numbers.status}", icon)
@@ -276,7 +276,7 @@ def _draw_numbers(box, context, numbers, several):
 
 
 def _draw_text(layout, context, text, icon):
-    """Labels do not wrap by themselves. About 70 points go to margins, icon and tabs, and 6.5 to a character."""
+    """Draw wrapped text, since labels do not wrap. Margins, icon and tabs take about 70 points, a character 6.5."""
     points = context.region.width / context.preferences.system.ui_scale
     column = layout.column(align=True)
     for index, line in enumerate(textwrap.wrap(text, max(16, int((points - 70) / 6.5)))):

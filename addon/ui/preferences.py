@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The user's own defaults: what an operator starts from in each session."""
+"""The add-on preferences: the user's own defaults, from which operators start in each session."""
 
 import bpy
 
@@ -8,11 +8,11 @@ from . import panels
 from .operators import ContourOutput, ContourSettings, properties_of
 
 _PROPERTIES = properties_of(ContourSettings, ContourOutput)
-_ADDON = __package__.rpartition(".")[0]  # by which Blender knows it
+_ADDON = __package__.rpartition(".")[0]  # the name under which Blender knows the add-on
 
 
 def _applied(name):
-    """What Blender calls when this preference changes; what was set besides in the sidebar stays."""
+    """Return the update callback of one preference, which leaves the other settings in the sidebar alone."""
 
     def changed(preferences, context):
         apply(context, (name,))
@@ -22,7 +22,7 @@ def _applied(name):
 
 class ContourPreferences(bpy.types.AddonPreferences):
     bl_idname = _ADDON
-    # The same properties as the operator's, of which each change takes effect at once.
+    # The same properties as the operator's; a change takes effect immediately.
     __annotations__ = {
         name: prop.function(**prop.keywords, update=_applied(name)) for name, prop in sorted(_PROPERTIES.items())
     }
@@ -32,7 +32,7 @@ class ContourPreferences(bpy.types.AddonPreferences):
         problem = native.problem()
         if problem:
             layout.label(text=problem, icon="ERROR")
-        layout.label(text="What the operators start from in each session:")
+        layout.label(text="Operator settings at the start of each session:")
         row = layout.row()
         panels.draw_settings(row.column(), self)
         panels.draw_more_settings(row.column(), self)
@@ -40,7 +40,7 @@ class ContourPreferences(bpy.types.AddonPreferences):
 
 
 class MESH_OT_contour_defaults(bpy.types.Operator):
-    """Set all preferences of this add-on back to what it came with"""
+    """Reset all preferences of this add-on to the factory defaults"""
 
     bl_idname = "mesh.contour_defaults"
     bl_label = "Restore Defaults"
@@ -55,13 +55,13 @@ class MESH_OT_contour_defaults(bpy.types.Operator):
 
 
 def values(context):
-    """The user's defaults by name; none where the add-on runs without preferences."""
+    """Return the user's defaults by name; an empty dictionary if the add-on runs without preferences."""
     preferences = _find(context)
     return {name: getattr(preferences, name) for name in _PROPERTIES} if preferences else {}
 
 
 def apply(context, names=tuple(_PROPERTIES)):
-    """Lets the next run of each operator start from the user's defaults, of all properties or of those named."""
+    """Let the next run of each operator start from the user's defaults for the named properties (default: all)."""
     chosen = {name: value for name, value in values(context).items() if name in names}
     for operator in (panels.OPERATOR, *panels.NETWORK_OPERATORS):
         panels.remember(context, chosen, operator)

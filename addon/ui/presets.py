@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Named settings for the sidebar: those that the add-on brings, and the user's own in Blender's preset folder."""
+"""Presets of the settings in the sidebar: those of the add-on, and the user's own in Blender's preset folder."""
 
 import bpy
 from bl_operators.presets import AddPresetBase
@@ -11,7 +11,7 @@ from . import panels, preferences
 
 
 class MESH_OT_contour_preset(bpy.types.Operator):
-    """Set the settings in the sidebar"""
+    """Apply a preset to the settings in the sidebar"""
 
     bl_idname = "mesh.contour_preset"
     bl_label = "Contour Preset"
@@ -47,7 +47,7 @@ class VIEW3D_PT_minimum_ratio_contours_presets(PresetPanel, bpy.types.Panel):
 
     def draw(self, context):
         self.layout.emboss = "PULLDOWN_MENU"
-        self.layout.operator_context = "EXEC_DEFAULT"  # else adding asks for the name once more
+        self.layout.operator_context = "EXEC_DEFAULT"  # otherwise adding a preset asks for its name again
         for name, (text, _, _) in PRESETS.items():
             self.layout.operator(MESH_OT_contour_preset.bl_idname, text=text).preset = name
         self.layout.separator()
@@ -57,7 +57,7 @@ class VIEW3D_PT_minimum_ratio_contours_presets(PresetPanel, bpy.types.Panel):
             self._draw_add(context.window_manager)
 
     def _draw_add(self, window_manager):
-        """As Blender's own last row; of a folder that is not there before the first preset Blender would complain."""
+        """Draw the last row as Blender does, which would complain about the folder missing before the first preset."""
         row = self.layout.row()
         name = row.row()
         name.emboss = "NORMAL"

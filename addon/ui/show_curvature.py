@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shows what draws the contours: the least principal curvature as colors and as an attribute."""
+"""Shows the least principal curvature, which attracts contours, as colors and as an attribute."""
 
 import bmesh
 import bpy
@@ -16,7 +16,7 @@ _KINDS = {VALUES: ("POINT", "FLOAT"), COLORS: ("POINT", "FLOAT_COLOR")}
 
 
 class MESH_OT_show_curvature(bpy.types.Operator):
-    """Color the mesh by its concavity, which draws the contours: valleys blue, flat places white, convex ones red"""
+    """Color the mesh by the concavity that attracts contours: valleys blue, flat places white, convex places red"""
 
     bl_idname = "mesh.show_curvature"
     bl_label = "Show Curvature"
@@ -24,22 +24,22 @@ class MESH_OT_show_curvature(bpy.types.Operator):
 
     quantile: FloatProperty(
         name="Full Color",
-        description="This share of the mesh is less curved than what has the full color; lower: more contrast",
+        description="The color is full from this quantile of the curvatures on; lower: more contrast",
         default=0.95,
         min=0.05,
         max=1.0,
     )
     radius: FloatProperty(
         name="Radius",
-        description="How far around a vertex curvature is averaged, in average edge lengths of the mesh; "
-        "contours are found with 1.6",
+        description="Radius around a vertex in which curvature is averaged, in average edge lengths of the mesh; "
+        "contours use 1.6",
         default=1.6,
         min=0.1,
         soft_max=10.0,
     )
     shade: BoolProperty(
-        name="Shade by It",
-        description="Let this viewport show the colors: solid shading by the active color attribute",
+        name="Show in Viewport",
+        description="Set this viewport to solid shading with the active color attribute",
         default=True,
     )
 
@@ -69,10 +69,10 @@ class MESH_OT_show_curvature(bpy.types.Operator):
         return {"FINISHED" if shown else "CANCELLED"}
 
     def _show(self, obj, objects):
-        """Writes both attributes; returns the problem for which it could not."""
-        in_the_way = [name for name in _KINDS if not _is_free(obj.data, name)]
-        if in_the_way:
-            return messages.name_taken(in_the_way[0])
+        """Write both attributes. Return why that is impossible; empty if it was done."""
+        taken = [name for name in _KINDS if not _is_free(obj.data, name)]
+        if taken:
+            return messages.name_taken(taken[0])
         synchronize(obj)
         try:
             surface = surface_of(obj, beside=objects)
@@ -96,7 +96,7 @@ def _write(mesh, values, shades):
     layers = bm.verts.layers
     for kind, name in ((layers.float, VALUES), (layers.float_color, COLORS)):
         if kind.get(name) is None:
-            kind.new(name)  # all references to elements end here
+            kind.new(name)  # this invalidates all references to elements
     numbers, colored = layers.float[VALUES], layers.float_color[COLORS]
     for vertex, value, shade in zip(bm.verts, values.tolist(), shades.tolist()):
         vertex[numbers] = value

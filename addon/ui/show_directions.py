@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shows which way contours like to run: lines along the valleys, over all meshes in Edit Mode.
+"""Shows the directions that contours prefer to follow: lines along the valleys of all meshes in Edit Mode.
 
-No mesh and no object is kept: what is in Edit Mode is looked up each time, since undo replaces it.
+Objects and meshes are looked up each time and never stored, since undo replaces them.
 """
 
 import bpy
@@ -11,10 +11,10 @@ from ..core.curvature_colors import full_size
 from ..mesh.arrays import synchronize
 from ..mesh.surface_cache import arrays_and_surface_of
 
-_QUANTILE = 0.95  # as the colors of the curvature
-_QUIET = 0.3  # seconds without a change until the lines are made anew
+_QUANTILE = 0.95  # the same as for the colors of the curvature
+_DELAY = 0.3  # seconds without a change before the lines are computed again
 
-_shown = None  # the overlay, while there is one
+_shown = None  # the overlay, while it is shown
 _reading = False
 
 
@@ -23,8 +23,8 @@ def is_shown():
 
 
 class MESH_OT_show_curvature_directions(bpy.types.Operator):
-    """Show which way contours like to run: short lines along the valleys, where the surface is notably concave. \
-They follow the mesh as it changes; again, or leaving Edit Mode, takes them away"""
+    """Show the directions that contours prefer to follow as short lines along the valleys. The lines are updated as \
+the mesh changes, and removed by running this again or leaving Edit Mode"""
 
     bl_idname = "mesh.show_curvature_directions"
     bl_label = "Show Curvature Directions"
@@ -32,7 +32,7 @@ They follow the mesh as it changes; again, or leaving Edit Mode, takes them away
     @classmethod
     def poll(cls, context):
         if bpy.app.background:
-            cls.poll_message_set("Directions are drawn in a window, and there is none")
+            cls.poll_message_set("Directions cannot be shown without a window")
             return False
         if context.mode == "EDIT_MESH":
             return True
@@ -57,7 +57,7 @@ They follow the mesh as it changes; again, or leaving Edit Mode, takes them away
 
 
 def read(objects):
-    """The matrix and the ends of the lines of each object, and the problems of those that have none."""
+    """Return the matrix and the ends of the lines of each object, and the problems of objects that have no lines."""
     items, problems = [], []
     _synchronize(objects)
     for obj in objects:
@@ -74,7 +74,7 @@ def read(objects):
 
 
 def _synchronize(objects):
-    """Blender takes this for a change of the meshes, which it is not: the handlers hear of it here and now."""
+    """Synchronize the objects, and let the handlers ignore the updates that Blender reports because of it."""
     global _reading
     _reading = True
     try:
@@ -86,7 +86,7 @@ def _synchronize(objects):
 
 
 def remove():
-    """Takes the lines away, and all that kept them up to date."""
+    """Remove the lines and the handlers that update them."""
     global _shown
     if _shown is None:
         return
@@ -100,7 +100,7 @@ def remove():
 
 def _show(items):
     global _shown
-    from . import overlay  # needs a graphics card, which a Blender without windows has not
+    from . import overlay  # needs a GPU, which Blender does not have in background mode
 
     _shown = overlay.Overlay(overlay.Directions)
     _shown.show(items)
@@ -109,13 +109,13 @@ def _show(items):
 
 
 def _edited(context):
-    """One object of each mesh in Edit Mode. Timers and handlers know no window, which would know them too."""
+    """Return one object of each mesh in Edit Mode; timers and handlers have no window whose context would list them."""
     objects = [obj for obj in context.view_layer.objects if obj.type == "MESH" and obj.mode == "EDIT"]
     return list({obj.data: obj for obj in objects}.values())
 
 
 def _updated(scene, depsgraph):
-    """What was drawn of a mesh that changed is wrong at once, and drawn anew when the mesh has come to rest."""
+    """Hide the lines of a mesh as soon as it changes, and draw them again when it has stopped changing."""
     if _reading:
         return
     if not _edited(bpy.context):
@@ -135,11 +135,11 @@ def _undone(scene):
 
 
 def _postpone():
-    assert _shown is not None, "the handlers are there as long as the lines"
+    assert _shown is not None, "handlers exist only while lines are shown"
     _shown.show([])
     if bpy.app.timers.is_registered(_refresh):
         bpy.app.timers.unregister(_refresh)
-    bpy.app.timers.register(_refresh, first_interval=_QUIET)
+    bpy.app.timers.register(_refresh, first_interval=_DELAY)
 
 
 def _refresh():
