@@ -5,7 +5,7 @@ import importlib
 import pkgutil
 import sys
 
-import bpy  # first: as a wheel it brings the path of the next one
+import bpy  # first, since the bpy wheel adds the path of the next one
 
 # isort: split
 import addon_utils
@@ -14,10 +14,10 @@ NAME = "minimum_ratio_contours"
 
 
 def enable():
-    """The add-on's package, which the tests import as minimum_ratio_contours also where it is an extension."""
+    """Enable the add-on and return its package, which tests import as minimum_ratio_contours even for an extension."""
     names = [module.__name__ for module in addon_utils.modules() if module.__name__.split(".")[-1] == NAME]
     if len(names) != 1:
-        sys.exit(f"installed once should be the add-on {NAME}; there are: {names}")
+        sys.exit(f"the add-on {NAME} should be installed exactly once; found: {names}")
     bpy.ops.preferences.addon_enable(module=names[0])
     package = importlib.import_module(names[0])
     if package.__name__ != NAME:
@@ -26,7 +26,7 @@ def enable():
 
 
 def _give_short_names(package):
-    """The same modules under both names: a second import would make second classes and caches."""
+    """Register the modules under both names: importing them twice would duplicate classes and caches."""
     for found in pkgutil.walk_packages(package.__path__, package.__name__ + "."):
         importlib.import_module(found.name)
     for name, module in list(sys.modules.items()):

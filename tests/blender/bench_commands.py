@@ -20,7 +20,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 bpy.ops.preferences.addon_enable(module="minimum_ratio_contours")
 
 from bench_meshes import GROOVE, grooved_tube, milliseconds, square  # noqa: E402
-from made_meshes import edit, pairs, select, set_flag  # noqa: E402
+from made_meshes import edit, mark_edges, pairs, select  # noqa: E402
 from minimum_ratio_contours import api  # noqa: E402
 from minimum_ratio_contours.mesh.arrays import read_arrays, synchronize  # noqa: E402
 
@@ -31,7 +31,7 @@ HAND_OVER = ("update_from_editmode", "the arrays")
 
 
 def plain_arrays(mesh):
-    """Points, faces, triangles and what is hidden, as properties hand them over to arrays of just their type."""
+    """Read points, faces, triangles and hidden flags from properties into arrays of exactly their type."""
     mesh.calc_loop_triangles()
     for elements, name, dtype, width in (
         (mesh.vertices, "co", np.float32, 3),
@@ -44,7 +44,7 @@ def plain_arrays(mesh):
 
 
 class Bench:
-    """The commands by name, each with what must be done before it is timed."""
+    """Return the commands by name, each with the preparation that is not timed."""
 
     def __init__(self):
         self.obj = grooved_tube()
@@ -80,7 +80,7 @@ class Bench:
 
     def _mark(self):
         self._clear()
-        set_flag(self.obj, pairs(LOOP), "seam")
+        mark_edges(self.obj, pairs(LOOP), "seam")
 
     def _clear(self):
         bpy.ops.mesh.select_all(action="SELECT")
@@ -89,7 +89,7 @@ class Bench:
         bpy.ops.mesh.select_all(action="DESELECT")
 
     def renew(self):
-        """The mesh as it was before it was cut."""
+        """Restore the mesh from before the cut."""
         if bpy.context.mode != "OBJECT":
             bpy.ops.object.mode_set(mode="OBJECT")
         for other in bpy.data.objects:
@@ -119,7 +119,7 @@ def run(repetitions=REPETITIONS, *outputs):
         for name in bench.cases
         if "," not in name and name != "optimize_seams" or not outputs or name.split(",")[0] in outputs
     ]
-    for name in names:  # what is loaded and allocated only once is not counted
+    for name in names:  # loading and first allocations are not counted
         bench.measure(name)
     times = {name: [] for name in names}
     for _ in range(int(repetitions)):

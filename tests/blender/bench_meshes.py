@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The mesh of a million triangles that the benchmarks measure on, and rough loops on it."""
+"""The mesh of a million triangles for the benchmarks, and rough loops on it."""
 
 import time
 
@@ -10,7 +10,7 @@ COLUMNS, ROWS, GROOVE = 1000, 500, 250
 
 
 def grooved_tube():
-    """A million triangles: a closed tube with a groove round its middle."""
+    """Make a closed tube of a million triangles with a groove around its middle."""
     angles, rows = 2 * np.pi * np.arange(COLUMNS) / COLUMNS, np.arange(ROWS + 1)
     radii = 1 - 0.2 * np.exp(-(((rows - GROOVE) / 5.0) ** 2) / 2)
     points = np.stack(
@@ -24,7 +24,7 @@ def grooved_tube():
 
 
 def square(row, column, size):
-    """A closed loop of rows and columns."""
+    """Return a closed loop along rows and columns."""
     steps = [(0, 1)] * size + [(1, 0)] * size + [(0, -1)] * size + [(-1, 0)] * size
     corners = np.cumsum([(row, column), *steps[:-1]], axis=0)
     return [int(r * COLUMNS + c) for r, c in corners]
@@ -43,7 +43,7 @@ def _wall():
 
 
 def _caps():
-    """The fans round the two tips, which come after all other points."""
+    """Return the fans around the two tips, whose vertices come after all others."""
     column, top, tip = np.arange(COLUMNS), ROWS * COLUMNS, (ROWS + 1) * COLUMNS
     beside = np.roll(column, -1)
     yield np.stack([beside, column, np.full(COLUMNS, tip)], -1)
@@ -58,7 +58,7 @@ def _mesh(name, points, triangles):
     mesh.loops.foreach_set("vertex_index", triangles.astype(np.int32).ravel())
     mesh.polygons.add(len(triangles))
     mesh.polygons.foreach_set("loop_start", np.arange(0, triangles.size, 3, dtype=np.int32))
-    if bpy.app.version < (4, 0, 0):  # since then a face ends where the next one starts
+    if bpy.app.version < (4, 0, 0):  # later releases derive the end of a face from the next start
         mesh.polygons.foreach_set("loop_total", np.full(len(triangles), 3, dtype=np.int32))
     mesh.update(calc_edges=True)
     return mesh

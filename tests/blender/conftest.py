@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every test starts from an empty scene with Blender's own settings."""
+"""Every test starts from an empty scene with Blender's default settings."""
 
 import bpy
 import pytest
@@ -7,15 +7,15 @@ from minimum_ratio_contours import api
 
 
 @bpy.app.handlers.persistent
-def find_lost_seams(*_):
-    """Blender 5.1 looks for the seams of a file that 3.4 wrote, as the samples are, in an attribute of another name."""
+def restore_seams(*_):
+    """Copy seams to where Blender 5.1 expects them: 3.4, which saved the samples, names the attribute differently."""
     for mesh in bpy.data.meshes:
         if ".uv_seam" in mesh.attributes and not any(edge.use_seam for edge in mesh.edges):
-            mesh.edges.foreach_set("use_seam", [lost.value for lost in mesh.attributes[".uv_seam"].data])
+            mesh.edges.foreach_set("use_seam", [seam.value for seam in mesh.attributes[".uv_seam"].data])
 
 
 if bpy.app.version >= (5, 1, 0):
-    bpy.app.handlers.load_post.append(find_lost_seams)
+    bpy.app.handlers.load_post.append(restore_seams)
 
 
 @pytest.fixture(autouse=True)
@@ -36,5 +36,5 @@ def empty_scene():
 
 @pytest.fixture
 def last():
-    """The message and numbers that the panel shows; the message is also what the operator reports."""
+    """The message and numbers in the panel; the operator reports the same message."""
     return bpy.context.window_manager.minimum_ratio_contours

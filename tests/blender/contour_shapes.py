@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Contours across faces for tests of cutting: where a plane meets a mesh, in the form of native results."""
+"""Contours across faces for tests of cutting: intersections of planes with meshes, in the form of native results."""
 
 from collections import defaultdict
 from types import SimpleNamespace
@@ -10,7 +10,7 @@ from made_meshes import mesh_object
 
 
 def rough_sphere(seed=0, dissolve=0.4, bumps=0.2, name="Rough", subdivisions=3):
-    """A bumpy sphere of triangles, some of which are joined to polygons of many corners."""
+    """Make a bumpy sphere of triangles, some of which are merged into polygons with many corners."""
     bm = bmesh.new()
     bmesh.ops.create_icosphere(bm, subdivisions=subdivisions, radius=1.0)
     rng = np.random.default_rng(seed)
@@ -20,7 +20,7 @@ def rough_sphere(seed=0, dissolve=0.4, bumps=0.2, name="Rough", subdivisions=3):
 
 
 def rough_plate(seed=0, dissolve=0.4, name="Plate"):
-    """A flat plate of quads, triangles and larger polygons, not all of them convex."""
+    """Make a flat plate of quads, triangles and larger polygons, not all of them convex."""
     bm = bmesh.new()
     bmesh.ops.create_grid(bm, x_segments=12, y_segments=12, size=1.0)
     rng = np.random.default_rng(seed)
@@ -32,13 +32,13 @@ def rough_plate(seed=0, dissolve=0.4, name="Plate"):
     return _with_dissolved(bm, rng, dissolve, name)
 
 
-def _with_dissolved(bm, rng, share, name):
+def _with_dissolved(bm, rng, fraction, name):
     bm.edges.ensure_lookup_table()
     taken, chosen = set(), []
     for index in rng.permutation(len(bm.edges)):
         edge = bm.edges[index]
         around = {face for vertex in edge.verts for face in vertex.link_faces}
-        if rng.random() < share and not edge.is_boundary and not around & taken:
+        if rng.random() < fraction and not edge.is_boundary and not around & taken:
             chosen.append(edge)
             taken |= set(edge.link_faces)
     bmesh.ops.dissolve_edges(bm, edges=chosen)
@@ -50,7 +50,7 @@ def _with_dissolved(bm, rng, share, name):
 
 
 def plane_contours(obj, normal, offset):
-    """Where the triangles of a mesh's faces meet the plane of all p with normal . p = offset."""
+    """Return the intersections of a mesh's triangles with the plane of all p with normal . p = offset."""
     mesh = obj.data
     mesh.calc_loop_triangles()
     heights = np.array([vertex.co[:] for vertex in mesh.vertices]) @ np.asarray(normal, dtype=float) - offset
@@ -91,7 +91,7 @@ def _contour(path, faces, closed, heights):
 
 
 def positions(obj_or_bm, contour):
-    """Where the points of a contour lie."""
+    """Return the positions of a contour's points."""
     points = np.array([vertex.co[:] for vertex in getattr(obj_or_bm, "data", obj_or_bm).vertices])
     (a, b), t = contour.edge_vertices.T, contour.edge_parameters[:, None]
     return (1 - t) * points[a] + t * points[b]
@@ -102,7 +102,7 @@ def flat_area(bm):
 
 
 def edges_by_ends(bm):
-    """How often each pair of vertices is joined by an edge."""
+    """Return how many edges join each pair of vertices."""
     counts = defaultdict(int)
     for edge in bm.edges:
         counts[frozenset(vertex.index for vertex in edge.verts)] += 1
@@ -110,7 +110,7 @@ def edges_by_ends(bm):
 
 
 def add_attributes(obj, linear):
-    """Layers of every kind whose values follow `linear` from positions to numbers, and constants of the faces."""
+    """Add layers of every kind: values that the function `linear` gives for positions, and a constant for each face."""
     mesh = obj.data
     points = np.array([vertex.co[:] for vertex in mesh.vertices])
     corners = points[[loop.vertex_index for loop in mesh.loops]]
@@ -146,7 +146,7 @@ def read_attribute(obj, name, field, width):
 
 
 def cut_mesh(obj, contours, merge=0.0):
-    """Cuts in Object Mode; gives the chains of vertex ids."""
+    """Cut contours in Object Mode and return the chains of vertex ids."""
     from minimum_ratio_contours.mesh import cutting
 
     bm = bmesh.new()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes and rough loops that the tests make, what they run, and what they read back."""
+"""Meshes and rough loops for the tests, and helpers to run operators and read the results."""
 
 import bmesh
 import bpy
@@ -9,12 +9,12 @@ SEGMENTS, RINGS, GROOVE = 32, 21, 12
 
 
 def ring(row):
-    """The vertices of a ring of the cylinder."""
+    """Return the vertices of a ring of the cylinder."""
     return [row * SEGMENTS + column for column in range(SEGMENTS)]
 
 
 def rough_loop(row, steps=2):
-    """A closed loop along the cylinder's edges that climbs `steps` rings from this one and comes down again."""
+    """Return a closed loop along the cylinder's edges that climbs `steps` rings from this one and comes down again."""
     rows = [row + round(steps * (1 - np.cos(2 * np.pi * column / SEGMENTS)) / 2) for column in range(SEGMENTS)]
     loop = []
     for column in range(SEGMENTS):
@@ -25,12 +25,12 @@ def rough_loop(row, steps=2):
 
 
 def pairs(loop, closed=True):
-    """The edges along a list of vertices."""
+    """Return the edges along a list of vertices."""
     return list(zip(loop, loop[1:] + loop[:1] if closed else loop[1:]))
 
 
 def grooved_cylinder(name="Cylinder", depth=0.3, grooves=(GROOVE,)):
-    """An open cylinder of quads with a groove round ring GROOVE, or round several."""
+    """Make an open cylinder of quads with a groove around ring GROOVE, or around several rings."""
     rows = np.arange(RINGS)
     radii = 1 - depth * sum(np.exp(-((rows - groove) ** 2) / 2) for groove in grooves)
     angles = 2 * np.pi * np.arange(SEGMENTS) / SEGMENTS
@@ -45,7 +45,7 @@ def grooved_cylinder(name="Cylinder", depth=0.3, grooves=(GROOVE,)):
 
 
 def dumbbell(offset=0.0):
-    """A cylinder along x with two grooves, to both sides of its middle, which may be off x = 0."""
+    """Make a cylinder along x with two grooves, one on each side of its middle, which is at x = offset."""
     obj = grooved_cylinder(grooves=(5, 15))
     for vertex in obj.data.vertices:
         x, y, _ = vertex.co
@@ -54,7 +54,7 @@ def dumbbell(offset=0.0):
 
 
 def torus(major=24, minor=12):
-    """A closed torus of quads."""
+    """Make a closed torus of quads."""
     angles = [(2 * np.pi * i / major, 2 * np.pi * j / minor) for i in range(major) for j in range(minor)]
     points = [((2 + np.cos(b)) * np.cos(a), (2 + np.cos(b)) * np.sin(a), np.sin(b)) for a, b in angles]
     corners = [(i, j) for i in range(major) for j in range(minor)]
@@ -68,7 +68,7 @@ def torus(major=24, minor=12):
 
 
 def torus_ring(i, minor=12):
-    """The vertices of a ring the short way round."""
+    """Return the vertices of a ring around the tube of the torus."""
     return [i * minor + j for j in range(minor)]
 
 
@@ -82,7 +82,7 @@ def mesh_object(name, positions, edges=(), faces=()):
 
 
 def edit(*objects, mode="EDGE"):
-    """Edit Mode for these objects, with nothing selected."""
+    """Enter Edit Mode with these objects and nothing selected."""
     for obj in bpy.context.view_layer.objects:
         obj.select_set(obj in objects)
     bpy.context.view_layer.objects.active = objects[0]
@@ -92,7 +92,7 @@ def edit(*objects, mode="EDGE"):
 
 
 def select(obj, edges):
-    """Adds edges, given as vertex pairs, to the selection."""
+    """Add edges, given as vertex pairs, to the selection."""
     bm = bmesh.from_edit_mesh(obj.data)
     for edge in find_edges(bm, edges):
         edge.select_set(True)
@@ -101,7 +101,7 @@ def select(obj, edges):
 
 
 def select_faces_below(obj, loop):
-    """Selects the faces between the cylinder's ring 2 and a loop, seen from below."""
+    """Select the faces between the cylinder's ring 2 and a loop above it."""
     wall = {frozenset(pair) for pair in pairs(loop) + pairs(ring(2))}
     bm = bmesh.from_edit_mesh(obj.data)
     bm.faces.ensure_lookup_table()
@@ -120,19 +120,20 @@ def find_edges(bm, edges):
     return [bm.edges.get((bm.verts[a], bm.verts[b])) for a, b in edges]
 
 
-def set_flag(obj, edges, flag):
+def mark_edges(obj, edges, mark):
+    """Mark edges, given as vertex pairs, as "seam" or "sharp"."""
     bm = bmesh.from_edit_mesh(obj.data)
     for edge in find_edges(bm, edges):
-        if flag == "seam":
+        if mark == "seam":
             edge.seam = True
         else:
             edge.smooth = False
     bmesh.update_edit_mesh(obj.data)
 
 
-def flagged(obj, flag):
-    """The edges of an object in Edit Mode with a flag ("select", "seam", "sharp"), as a set of vertex pairs."""
-    attribute, value = {"select": ("select", True), "seam": ("seam", True), "sharp": ("smooth", False)}[flag]
+def marked_edges(obj, mark):
+    """Return the edges of an object in Edit Mode that are "select", "seam" or "sharp", as a set of vertex pairs."""
+    attribute, value = {"select": ("select", True), "seam": ("seam", True), "sharp": ("smooth", False)}[mark]
     edges = [edge for edge in bmesh.from_edit_mesh(obj.data).edges if getattr(edge, attribute) == value]
     return {frozenset(vertex.index for vertex in edge.verts) for edge in edges}
 
@@ -141,8 +142,8 @@ def edge_set(loop):
     return {frozenset(pair) for pair in pairs(loop)}
 
 
-def everything(obj):
-    """All that a mesh in Edit Mode holds, as plain data that can be compared."""
+def mesh_state(obj):
+    """Return all data of a mesh in Edit Mode as plain values that can be compared."""
     bm = bmesh.from_edit_mesh(obj.data)
     return {
         "vertices": [(tuple(vertex.co), vertex.select, vertex.hide) for vertex in bm.verts],
@@ -169,7 +170,7 @@ def ids(element):
 
 
 def layers(bm):
-    """The contents of every layer, by element kind, layer kind and name; UV and color as tuples."""
+    """Return the contents of every layer, by element kind, layer kind and name; UV and color as tuples."""
     found = {}
     corners = [corner for face in bm.faces for corner in face.loops]
     for kind, layer_sets, elements in (

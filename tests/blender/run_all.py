@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs the add-on's tests inside Blender, with the add-on installed in the user's folders, or in BLENDER_USER_SCRIPTS:
+"""Runs the add-on's tests inside Blender, with the add-on in the user's folders or in BLENDER_USER_SCRIPTS:
 
 blender -b --factory-startup --python-exit-code 1 --python tests/blender/run_all.py [-- PYTEST ARGUMENT...]
-python tests/blender/run_all.py [-- PYTEST ARGUMENT...]          where the bpy wheel is installed
+python tests/blender/run_all.py [-- PYTEST ARGUMENT...]          if the bpy wheel is installed
 """
 
 import sys

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The modal operator as scripts and the redo panel run it, and where it refuses; its window has tests of its own."""
+"""The modal operator as scripts and the redo panel run it, and its errors; window/ tests it in a window."""
 
 import bpy
 import pytest
@@ -8,10 +8,10 @@ from made_meshes import (
     SEGMENTS,
     edge_set,
     edit,
-    everything,
-    flagged,
     grooved_cylinder,
+    marked_edges,
     mesh_object,
+    mesh_state,
     pairs,
     ring,
     rough_loop,
@@ -46,54 +46,54 @@ def ends(edges):
 
 
 @pytest.mark.parametrize("settings", [{"output": "SEAM"}, {"output": "CUT", "refinement": 2}, {"output": "RIP"}])
-def test_without_pins_it_does_what_optimize_contour_does(settings):
+def test_without_pins_the_result_is_that_of_optimize_contour(settings):
     prepared()
     assert ADJUST("EXEC_DEFAULT", True, width=8, **settings) == {"FINISHED"}
-    adjusted = everything(now())
+    adjusted = mesh_state(now())
     bpy.ops.ed.undo()
     bpy.ops.mesh.optimize_contour("EXEC_DEFAULT", True, width=8, **settings)
-    assert everything(now()) == adjusted
+    assert mesh_state(now()) == adjusted
 
 
-def test_pins_are_passed_after_redo_too():
-    before = everything(prepared())
+def test_the_contour_passes_its_pins_also_after_redo():
+    before = mesh_state(prepared())
     ADJUST("EXEC_DEFAULT", True, width=8, reach=0.0, pins=[pin(ABOVE)])
-    adjusted = everything(now())
-    assert ABOVE in ends(flagged(now(), "select"))
+    adjusted = mesh_state(now())
+    assert ABOVE in ends(marked_edges(now(), "select"))
     bpy.ops.ed.undo()
-    assert everything(now()) == before
+    assert mesh_state(now()) == before
     bpy.ops.ed.redo()
-    assert everything(now()) == adjusted
+    assert mesh_state(now()) == adjusted
 
 
 def test_each_contour_has_its_own_pins():
     prepared(rough_loop(3), ring(16))
     ADJUST("EXEC_DEFAULT", True, width=2, min_salience=0.0, pins=[pin(2 * SEGMENTS + 9), pin(17 * SEGMENTS + 9, 1)])
-    assert ends(flagged(now(), "select")) >= {2 * SEGMENTS + 9, 17 * SEGMENTS + 9}
+    assert ends(marked_edges(now(), "select")) >= {2 * SEGMENTS + 9, 17 * SEGMENTS + 9}
 
 
 def test_pins_outside_the_band_are_counted(last):
     obj = prepared()
-    before = everything(obj)
+    before = mesh_state(obj)
     assert ADJUST(width=1, pins=[pin(ABOVE), pin(ABOVE + 1)]) == {"CANCELLED"}
-    assert everything(obj) == before
+    assert mesh_state(obj) == before
     assert "2 pinned vertices" in last.message
 
 
 @pytest.mark.parametrize("contour", [-1, 1, 5])
-def test_pins_of_a_contour_that_is_not_there_are_outside(contour, last):
+def test_pins_of_a_missing_contour_count_as_outside(contour, last):
     obj = prepared()
-    before = everything(obj)
+    before = mesh_state(obj)
     assert ADJUST(pins=[pin(ABOVE, contour)]) == {"CANCELLED"}
-    assert everything(obj) == before
+    assert mesh_state(obj) == before
     assert last.message.startswith("1 pinned vertex lies outside the band")
 
 
-def test_pins_that_no_contour_passes_are_explained(last):
+def test_pins_that_no_contour_can_pass_are_reported(last):
     obj = prepared()
-    before = everything(obj)
+    before = mesh_state(obj)
     assert ADJUST(width=8, reach=0.0, max_turn=0.2, pins=[pin(ABOVE), pin(ABOVE - 3 * SEGMENTS + 1)]) == {"CANCELLED"}
-    assert everything(obj) == before
+    assert mesh_state(obj) == before
     assert "passes all pinned vertices" in last.message
 
 
@@ -101,24 +101,24 @@ def test_pins_that_no_contour_passes_are_explained(last):
 def test_nothing_selected(call, last):
     obj = prepared()
     bpy.ops.mesh.select_all(action="DESELECT")
-    before = everything(obj)
+    before = mesh_state(obj)
     assert ADJUST(call) == {"CANCELLED"}
-    assert everything(obj) == before
+    assert mesh_state(obj) == before
     assert last.message
 
 
-def test_a_selection_that_branches_is_explained(last):
+def test_a_branching_selection_is_reported(last):
     obj = prepared()
     select(obj, [(ABOVE, ABOVE + 1), (ABOVE, ABOVE - 1), (ABOVE, ABOVE + SEGMENTS)])
     bpy.ops.mesh.select_all(action="DESELECT")
     select(obj, [(ABOVE, ABOVE + 1), (ABOVE, ABOVE - 1), (ABOVE, ABOVE + SEGMENTS)])
-    before = everything(obj)
+    before = mesh_state(obj)
     assert ADJUST() == {"CANCELLED"}
-    assert everything(obj) == before
+    assert mesh_state(obj) == before
     assert "branches" in last.message
 
 
-def test_what_is_no_contour_is_left_out():
+def test_selections_that_are_not_contours_are_left_out():
     obj = mesh_object(
         "Loose", [(column, row, 0) for row in range(2) for column in range(4)], edges=[(6, 7)], faces=[(0, 1, 5, 4)]
     )
@@ -128,10 +128,10 @@ def test_what_is_no_contour_is_left_out():
     select(obj, [(6, 7)])
     select(other, pairs(LOOP))
     assert ADJUST(width=8) == {"FINISHED"}
-    assert flagged(other, "select") == edge_set(ring(GROOVE))
+    assert marked_edges(other, "select") == edge_set(ring(GROOVE))
 
 
-def test_a_missing_library_is_explained(monkeypatch, last):
+def test_a_missing_library_is_reported(monkeypatch, last):
     def missing():
         raise native.Unavailable("no library")
 
@@ -142,11 +142,11 @@ def test_a_missing_library_is_explained(monkeypatch, last):
     assert last.message == "no library"
 
 
-def test_it_needs_edit_mode():
+def test_the_operator_needs_edit_mode():
     grooved_cylinder()
     assert not ADJUST.poll()
 
 
-def test_the_keys_go_through_all_outputs():
+def test_the_keys_cycle_through_all_outputs():
     items = ADJUST.get_rna_type().properties["output"].enum_items
     assert tuple(item.identifier for item in items) == preview_state.OUTPUTS

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The scripts' way in: no selection, native results, the mesh as it was."""
+"""The functions for scripts: they need no selection, return native results and leave the mesh unchanged."""
 
 import bmesh
 import bpy
 import numpy as np
 import pytest
-from made_meshes import GROOVE, SEGMENTS, edge_set, edit, everything, grooved_cylinder, ring, rough_loop
+from made_meshes import GROOVE, SEGMENTS, edge_set, edit, grooved_cylinder, mesh_state, ring, rough_loop
 from minimum_ratio_contours import api
 from minimum_ratio_contours.mesh.arrays import read_arrays
 
@@ -23,10 +23,10 @@ def test_edit_mode_sees_what_was_edited_and_changes_nothing():
     bpy.context.view_layer.objects.active = obj
     for vertex, source in zip(bmesh.from_edit_mesh(obj.data).verts, shape.data.vertices):
         vertex.co = source.co
-    before = everything(obj)
+    before = mesh_state(obj)
     result = api.optimize_contour(obj, rough_loop(GROOVE - 3))
     assert edge_set(np.asarray(result.vertices).tolist()) == edge_set(ring(GROOVE))
-    assert everything(obj) == before
+    assert mesh_state(obj) == before
 
 
 def test_a_quarter_of_a_loop_is_closed_first():
@@ -49,7 +49,7 @@ def test_a_surface_is_current_until_its_mesh_changes():
     assert not api.are_current(surfaces)
 
 
-def test_bad_input_is_named():
+def test_errors_name_the_bad_input():
     obj = grooved_cylinder()
     with pytest.raises(ValueError, match=str(ring(0)[0])):
         api.optimize_contour(obj, [ring(0)[0], ring(4)[0], ring(8)[0]])
@@ -73,14 +73,14 @@ def test_arrays():
         assert array.flags.c_contiguous
 
 
-def test_every_name_for_scripts_is_there_and_explained():
-    promised = "optimize_contour optimize_on optimize_all_on problem_on optimize_seams optimize_segmentation curvature"
-    promised += " surface_of arrays_and_surface_of are_current forget native_module native_options"
-    assert set(promised.split()) == set(api.__all__)
+def test_the_api_is_complete_and_documented():
+    expected = "optimize_contour optimize_on optimize_all_on problem_on optimize_seams optimize_segmentation curvature"
+    expected += " surface_of arrays_and_surface_of are_current forget native_module native_options"
+    assert set(expected.split()) == set(api.__all__)
     assert all(getattr(api, name).__doc__ for name in api.__all__)
 
 
-def test_scripts_may_call_the_native_module_themselves():
+def test_scripts_can_call_the_native_module_directly():
     obj, mrc = grooved_cylinder(), api.native_module()
     edit(obj)
     surface, options = api.surface_of(obj), mrc.Options(**api.native_options(width=5))
@@ -88,7 +88,7 @@ def test_scripts_may_call_the_native_module_themselves():
     np.testing.assert_array_equal(result.vertices, api.optimize_contour(obj, rough_loop(GROOVE - 3), width=5).vertices)
 
 
-def test_the_surface_is_that_of_the_mesh_as_it_is_in_edit_mode():
+def test_the_surface_follows_changes_in_edit_mode():
     obj = grooved_cylinder()
     edit(obj)
     before = api.surface_of(obj)

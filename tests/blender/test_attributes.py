@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Columns of a mesh are what bmesh says of each element, in Edit Mode and out of it, set or never set."""
+"""Attributes of a mesh equal the values of its bmesh elements, in Edit Mode and Object Mode, set or never set."""
 
 import bmesh
 import bpy
 import numpy as np
 import pytest
-from made_meshes import GROOVE, edit, find_edges, flagged, grooved_cylinder, pairs, ring, select
+from made_meshes import GROOVE, edit, find_edges, grooved_cylinder, marked_edges, pairs, ring, select
 from minimum_ratio_contours.mesh import attributes, constraint_layers
 from minimum_ratio_contours.mesh.arrays import synchronize
 
@@ -27,7 +27,7 @@ TYPES |= {"vertex_index": (np.int32,), "edge_index": (np.int32,)}
 
 
 def changed_cylinder():
-    """A bit of everything."""
+    """A bit of mesh_state."""
     obj = grooved_cylinder()
     edit(obj)
     bm = bmesh.from_edit_mesh(obj.data)
@@ -48,7 +48,7 @@ def elements(bm):
 
 @pytest.mark.parametrize("make", [grooved_cylinder, changed_cylinder])
 @pytest.mark.parametrize("mode", ["EDIT", "OBJECT"])
-def test_attributes_are_those_of_the_elements(make, mode):
+def test_attributes_equal_those_of_the_elements(make, mode):
     obj = make()
     bpy.ops.object.mode_set(mode="EDIT")
     bm = bmesh.from_edit_mesh(obj.data)
@@ -64,15 +64,15 @@ def test_attributes_are_those_of_the_elements(make, mode):
         assert found.dtype == TYPES.get(name, (bool,))[0]
 
 
-def test_an_attribute_may_be_read_while_another_mesh_is_edited():
+def test_an_attribute_can_be_read_while_another_mesh_is_edited():
     one, other = changed_cylinder(), grooved_cylinder("Other")
     assert other.data.is_editmode is False
     synchronize(one)
     assert attributes.read(other, "edges", "select", bool).tolist() == [edge.select for edge in other.data.edges]
-    assert attributes.read(one, "edges", "use_seam", bool).sum() == len(flagged(one, "seam"))
+    assert attributes.read(one, "edges", "use_seam", bool).sum() == len(marked_edges(one, "seam"))
 
 
-def test_reading_leaves_no_mesh_behind():
+def test_reading_attributes_leaves_no_temporary_mesh():
     obj = changed_cylinder()
     before = set(bpy.data.meshes)
     synchronize(obj)
@@ -82,17 +82,17 @@ def test_reading_leaves_no_mesh_behind():
 
 @pytest.mark.parametrize("domain", ["POINT", "CORNER"])
 @pytest.mark.parametrize("mode", ["EDIT", "OBJECT"])
-def test_brightness_is_the_mean_of_a_faces_colors_as_they_are_kept(domain, mode):
+def test_brightness_is_the_mean_of_the_stored_colors_of_a_face(domain, mode):
     obj = grooved_cylinder()
     layer = obj.data.color_attributes.new("Layer", "BYTE_COLOR", domain)
     layer.data.foreach_set("color", np.random.default_rng(7).random(4 * len(layer.data)).astype(np.float32))
     edit(obj)
     bm = bmesh.from_edit_mesh(obj.data)
     layer = (bm.verts if domain == "POINT" else bm.loops).layers.color["Layer"]
-    kept = [
+    stored = [
         [tuple((corner.vert if domain == "POINT" else corner)[layer])[:3] for corner in face.loops] for face in bm.faces
     ]
     synchronize(obj)
     bpy.ops.object.mode_set(mode=mode)
     density = constraint_layers.read(obj, region_source="COLOR", region_layer="Layer").density
-    assert np.allclose(density, [np.mean(face) for face in kept], atol=1e-6)
+    assert np.allclose(density, [np.mean(face) for face in stored], atol=1e-6)

@@ -15,14 +15,14 @@ from made_meshes import (
     SEGMENTS,
     edge_set,
     edit,
-    everything,
-    flagged,
     grooved_cylinder,
+    mark_edges,
+    marked_edges,
+    mesh_state,
     pairs,
     ring,
     rough_loop,
     select,
-    set_flag,
 )
 from minimum_ratio_contours import api
 from minimum_ratio_contours.core import messages, parameters, search
@@ -42,7 +42,7 @@ def endless(progress):
         progress(0.25)
 
 
-def test_a_search_tells_its_fraction_and_ends_when_canceled():
+def test_a_search_reports_its_progress_and_ends_when_canceled():
     running = background_search.BackgroundSearch(endless)
     assert not running.wait(0.01)
     assert running.fraction == 0.25
@@ -52,12 +52,12 @@ def test_a_search_tells_its_fraction_and_ends_when_canceled():
         running.finish()
 
 
-def test_what_a_search_raises_is_raised_where_it_is_awaited():
+def test_an_exception_of_a_search_is_raised_by_finish():
     with pytest.raises(ZeroDivisionError):
         background_search.BackgroundSearch(lambda progress: 1 / 0).finish()
 
 
-def test_a_native_search_ends_at_the_next_word_of_its_progress():
+def test_a_canceled_native_search_ends_at_its_next_progress_report():
     surface = api.surface_of(grooved_cylinder())
     fractions, results, named = [], [], threading.Event()
 
@@ -78,7 +78,7 @@ def test_a_native_search_ends_at_the_next_word_of_its_progress():
     assert results == []
 
 
-def test_closing_a_contour_ends_at_the_next_word_of_its_progress():
+def test_canceled_closing_ends_at_its_next_progress_report():
     surface = api.surface_of(grooved_cylinder())
     fractions = []
 
@@ -144,7 +144,7 @@ REAL = {
 
 
 def stand_in(kind):
-    """With the methods of the real operator, but made by hand: Blender makes operators only itself."""
+    """Make an object with the methods of the real operator: only Blender can create operators."""
     real = REAL[kind]
     own = {name: value for name, value in vars(real).items() if not name.startswith("__") and callable(value)}
     operator = type(kind.__name__, (kind,), own | {"bl_label": real.bl_label, "nothing": "", "noun": "seams"})()
@@ -155,7 +155,7 @@ def stand_in(kind):
 
 
 class Manager:
-    """A window manager that notes what is shown."""
+    """A window manager that records what is shown."""
 
     def __init__(self):
         self.minimum_ratio_contours = bpy.context.window_manager.minimum_ratio_contours
@@ -196,7 +196,7 @@ class Context:
 
 @pytest.fixture
 def impatient(monkeypatch):
-    """As in a window, with a timer for every search however short."""
+    """Run as in a window, with a timer even for short searches."""
     monkeypatch.setattr(background_search, "bpy", SimpleNamespace(app=SimpleNamespace(background=False)))
     kind = background_search.BackgroundSearch
     monkeypatch.setattr(kind, "wait", _waits_only_when_asked(kind.wait))
@@ -208,7 +208,7 @@ def _waits_only_when_asked(wait):
 
 
 def prepared():
-    """A cylinder with a rough loop selected, as a seam and as the border of a material."""
+    """Make a cylinder with a rough loop that is selected, a seam and the border of a material."""
     obj = grooved_cylinder()
     obj.data.materials.append(bpy.data.materials.new("One"))
     obj.data.materials.append(bpy.data.materials.new("Two"))
@@ -216,7 +216,7 @@ def prepared():
     obj.data.polygons.foreach_set("material_index", (np.arange(RINGS - 1)[:, None] >= rows).ravel().astype(int))
     edit(obj)
     select(obj, pairs(LOOP))
-    set_flag(obj, pairs(LOOP), "seam")
+    mark_edges(obj, pairs(LOOP), "seam")
     return obj
 
 
@@ -229,19 +229,19 @@ def until_done(operator, context):
 
 
 @pytest.mark.parametrize("kind", REAL)
-def test_done_by_a_timer_it_is_the_same_as_at_once(kind, impatient):
+def test_a_search_polled_by_a_timer_gives_the_same_result(kind, impatient):
     obj = prepared()
     name = REAL[kind].bl_idname.split(".")[1]
     given = {Contour: {"output": "SEAM"}, Seams: {}, Segmentation: {"source": "MATERIAL"}}[kind]
     getattr(bpy.ops.mesh, name)(**given)
-    expected = everything(obj)
+    expected = mesh_state(obj)
     bpy.ops.object.mode_set(mode="OBJECT")
     bpy.data.objects.remove(obj)
     obj, operator, context = prepared(), stand_in(kind), Context()
-    assert everything(obj) != expected
+    assert mesh_state(obj) != expected
     assert operator.invoke(context, None) == {"RUNNING_MODAL"}
     assert until_done(operator, context) == {"FINISHED"}
-    assert everything(obj) == expected
+    assert mesh_state(obj) == expected
     assert (operator._tasks, operator._search) == (None, None)
     fractions = context.window_manager.shown
     assert (fractions[0], fractions[-1], context.window_manager.timers) == ("begin", "end", 0)
@@ -252,29 +252,29 @@ def test_done_by_a_timer_it_is_the_same_as_at_once(kind, impatient):
 
 @pytest.mark.parametrize("event", [ESC, RIGHT_CLICK])
 @pytest.mark.parametrize("kind", REAL)
-def test_left_with_escape_the_mesh_is_as_it_was(kind, event, impatient, last):
+def test_escape_leaves_the_mesh_unchanged(kind, event, impatient, last):
     obj, operator, context = prepared(), stand_in(kind), Context()
-    before = everything(obj)
+    before = mesh_state(obj)
     operator.invoke(context, None)
     running = operator._search
     assert operator.modal(context, event) == {"CANCELLED"}
     assert running.wait(60)
-    assert everything(obj) == before
+    assert mesh_state(obj) == before
     assert operator.reported == [({"INFO"}, messages.CANCELLED)]
     assert last.message == messages.CANCELLED
     assert (context.window_manager.timers, context.status[-1]) == (0, None)
 
 
 @pytest.mark.parametrize("kind", REAL)
-def test_blender_may_end_it(kind, impatient):
-    """As when another file is opened."""
+def test_blender_can_end_the_operator(kind, impatient):
+    """For example because another file is opened."""
     obj, operator, context = prepared(), stand_in(kind), Context()
-    before = everything(obj)
+    before = mesh_state(obj)
     operator.invoke(context, None)
     running = operator._search
     operator.cancel(context)
     assert running.wait(0)
-    assert everything(obj) == before
+    assert mesh_state(obj) == before
     assert context.window_manager.timers == 0
 
 
@@ -295,18 +295,18 @@ def delete_the_object(obj):
 
 @pytest.mark.parametrize("change", [move_a_vertex, leave_edit_mode, delete_the_object])
 @pytest.mark.parametrize("kind", REAL)
-def test_a_mesh_that_was_changed_meanwhile_is_left_alone(kind, change, impatient):
+def test_nothing_is_written_if_the_mesh_changed_during_the_search(kind, change, impatient):
     obj, operator, context = prepared(), stand_in(kind), Context()
     operator.invoke(context, None)
     change(obj)
     assert until_done(operator, context) == {"CANCELLED"}
     assert operator.reported == [({"WARNING"}, messages.CHANGED_MEANWHILE)]
     if change is move_a_vertex:
-        assert flagged(obj, "seam") == edge_set(LOOP)
+        assert marked_edges(obj, "seam") == edge_set(LOOP)
 
 
 @pytest.mark.parametrize("kind", REAL)
-def test_what_takes_no_time_needs_no_timer(kind, monkeypatch):
+def test_a_fast_search_needs_no_timer(kind, monkeypatch):
     monkeypatch.setattr(background_search, "bpy", SimpleNamespace(app=SimpleNamespace(background=False)))
     monkeypatch.setattr(background_search, "_WITHOUT_TIMER", 60.0)
     prepared()
@@ -315,7 +315,7 @@ def test_what_takes_no_time_needs_no_timer(kind, monkeypatch):
     assert (context.window_manager.shown, context.status) == ([], [])
 
 
-def test_without_a_window_it_runs_at_once():
+def test_without_a_window_the_operator_does_not_become_modal():
     obj = prepared()
     assert bpy.ops.mesh.optimize_contour("INVOKE_DEFAULT", output="SEAM") == {"FINISHED"}
-    assert flagged(obj, "seam") == edge_set(ring(GROOVE))
+    assert marked_edges(obj, "seam") == edge_set(ring(GROOVE))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where nothing can be done, the operator says why, cancels, and leaves mesh and selection as they were."""
+"""If nothing can be done, the operator says why, cancels, and leaves the mesh and selection unchanged."""
 
 import sys
 
@@ -13,10 +13,10 @@ from made_meshes import (
     SEGMENTS,
     edge_set,
     edit,
-    everything,
-    flagged,
     grooved_cylinder,
+    marked_edges,
     mesh_object,
+    mesh_state,
     pairs,
     ring,
     rough_loop,
@@ -28,10 +28,10 @@ from minimum_ratio_contours.core import native
 
 
 def cancelled(obj, **properties):
-    """Runs the operator, which must cancel and change nothing."""
-    before = everything(obj)
+    """Run the operator, which must cancel and change nothing."""
+    before = mesh_state(obj)
     assert bpy.ops.mesh.optimize_contour(**properties) == {"CANCELLED"}
-    assert everything(obj) == before
+    assert mesh_state(obj) == before
 
 
 @pytest.mark.parametrize("mode", ["VERTEX", "EDGE", "FACE"])
@@ -61,7 +61,7 @@ def test_a_chain_of_one_edge(output, last):
     select(obj, pairs(ring(5)[:2], closed=False))
     cancelled(obj, output=output)
     ends = f"{ring(5)[0]}-{ring(5)[1]}"
-    assert last.message == f"Left as it is: a single edge, {ends}, has nothing to move between its ends; " + (
+    assert last.message == f"Left unchanged: a single edge, {ends}, has nothing between its ends to move; " + (
         "select a longer chain"
     )
 
@@ -71,7 +71,7 @@ def test_everything_selected(last):
     edit(obj)
     bpy.ops.mesh.select_all(action="SELECT")
     cancelled(obj)
-    assert "a selection that branches at vertices 0, 1, 2 and " in last.message
+    assert "the selection branches at vertices 0, 1, 2 and " in last.message
 
 
 @pytest.mark.parametrize("several", [False, True])
@@ -80,10 +80,10 @@ def test_the_whole_mesh_in_face_mode_has_no_border_to_move(several, last):
     edit(obj, *([grooved_cylinder("Other")] if several else []), mode="FACE")
     bpy.ops.mesh.select_all(action="SELECT")
     cancelled(obj)
-    assert last.message == "Left as it is: the selected faces have no border inside the mesh: deselect some"
+    assert last.message == "Left unchanged: the selected faces have no border inside the mesh: deselect some"
 
 
-def test_a_whole_mesh_beside_a_part_of_another_is_named(last):
+def test_a_mesh_selected_as_a_whole_is_named_and_the_other_is_done(last):
     obj, other = grooved_cylinder(), grooved_cylinder("Other")
     edit(obj, other, mode="FACE")
     bpy.ops.mesh.select_all(action="SELECT")
@@ -92,7 +92,7 @@ def test_a_whole_mesh_beside_a_part_of_another_is_named(last):
         face.select_set(max(vertex.index for vertex in face.verts) < (GROOVE - 2) * SEGMENTS)
     bmesh.update_edit_mesh(obj.data)
     assert bpy.ops.mesh.optimize_contour(output="SEAM") == {"FINISHED"}
-    assert flagged(obj, "seam") == edge_set(ring(GROOVE))
+    assert marked_edges(obj, "seam") == edge_set(ring(GROOVE))
     assert "Other: the selected faces have no border" in last.message
 
 
@@ -114,14 +114,14 @@ def hide_faces(obj, hidden):
     bmesh.update_edit_mesh(obj.data)
 
 
-def test_a_loop_along_hidden_faces_is_searched_on_the_side_shown(last):
+def test_a_loop_along_hidden_faces_is_searched_on_its_visible_side(last):
     obj = grooved_cylinder()
     edit(obj)
     hide_faces(obj, lambda rows: max(rows) <= GROOVE - 2)
     before = [face.hide for face in bmesh.from_edit_mesh(obj.data).faces]
     select(obj, pairs(ring(GROOVE - 2)))
     assert bpy.ops.mesh.optimize_contour(width=4) == {"FINISHED"}
-    assert flagged(obj, "select") == edge_set(ring(GROOVE))
+    assert marked_edges(obj, "select") == edge_set(ring(GROOVE))
     assert [face.hide for face in bmesh.from_edit_mesh(obj.data).faces] == before
 
 
@@ -130,7 +130,7 @@ def test_a_mesh_without_faces(last):
     edit(obj)
     bpy.ops.mesh.select_all(action="SELECT")
     cancelled(obj)
-    assert "an open chain with loose edges that no face uses (0-1)" in last.message
+    assert "an open chain has loose edges that no face uses (0-1)" in last.message
 
 
 def test_an_empty_mesh(last):
@@ -149,12 +149,12 @@ def test_the_library_missing(monkeypatch, last):
     obj = grooved_cylinder()
     edit(obj)
     select(obj, pairs(rough_loop(9)))
-    before = everything(obj)
+    before = mesh_state(obj)
     without_library(monkeypatch)
-    # Blender turns an error that an operator reports into an exception for scripts.
+    # For scripts, Blender turns an error report of an operator into an exception.
     with pytest.raises(RuntimeError, match="compiled library"):
         bpy.ops.mesh.optimize_contour(output="SEAM")
-    assert everything(obj) == before
+    assert mesh_state(obj) == before
     assert last.message == native.problem()
 
 
@@ -167,7 +167,7 @@ def test_a_library_of_another_version(monkeypatch):
 
 
 def with_fin():
-    """A triangle that stands on the first edge of ring 5."""
+    """Add a triangle on the first edge of ring 5, which then has three faces."""
     obj = grooved_cylinder()
     edit(obj)
     bm = bmesh.from_edit_mesh(obj.data)
@@ -202,8 +202,8 @@ def test_faces_whose_normals_disagree(last):
     assert "faces whose normals disagree: move the contour off it" in last.message
 
 
-def test_loose_edges_beside_a_loop(last):
-    """A chain of edges without faces between two points of the surface."""
+def test_loose_edges_attached_to_a_surface(last):
+    """Two points of the surface are joined by a chain of edges without faces."""
     obj = grooved_cylinder()
     edit(obj)
     bm = bmesh.from_edit_mesh(obj.data)
@@ -216,7 +216,7 @@ def test_loose_edges_beside_a_loop(last):
     bmesh.update_edit_mesh(obj.data)
     obj.update_from_editmode()
     cancelled(obj)
-    assert "with loose edges that no face uses" in last.message
+    assert "has loose edges that no face uses" in last.message
     assert "select edges of faces only" in last.message
 
 
@@ -226,10 +226,10 @@ def test_a_selection_that_branches(last):
     column = [row * SEGMENTS + 4 for row in range(5, 10)]
     select(obj, pairs(ring(7)) + pairs(column, closed=False))
     cancelled(obj, output="SEAM")
-    assert f"a selection that branches at vertex {7 * SEGMENTS + 4}; select single loops" in last.message
+    assert f"the selection branches at vertex {7 * SEGMENTS + 4}; select single loops" in last.message
 
 
-def test_vertices_that_lie_on_one_point(last):
+def test_vertices_at_the_same_point(last):
     obj = grooved_cylinder()
     for vertex in obj.data.vertices:
         vertex.co = (1, 2, 3)
@@ -239,17 +239,17 @@ def test_vertices_that_lie_on_one_point(last):
     assert "lie at one point" in last.message or "length 0" in last.message
 
 
-def test_one_bad_contour_does_not_keep_the_others(last):
+def test_a_bad_contour_does_not_block_the_others(last):
     obj = with_fin()
     select(obj, pairs(ring(5)) + pairs(rough_loop(GROOVE - 3)))
     assert bpy.ops.mesh.optimize_contour(output="SEAM") == {"FINISHED"}
-    assert flagged(obj, "seam") == edge_set(ring(GROOVE))
-    assert flagged(obj, "select") == edge_set(ring(GROOVE)) | edge_set(ring(5))
+    assert marked_edges(obj, "seam") == edge_set(ring(GROOVE))
+    assert marked_edges(obj, "select") == edge_set(ring(GROOVE)) | edge_set(ring(5))
     assert "an edge of more than two faces" in last.message
 
 
 def cylinder_of_loops():
-    """Every inner ring is selected, so that each keeps the next ones from growing."""
+    """Select every inner ring, so that the bands have no room to grow."""
     obj = grooved_cylinder(depth=0)
     edit(obj)
     select(obj, [pair for row in range(1, RINGS - 1) for pair in pairs(ring(row))])
@@ -257,25 +257,25 @@ def cylinder_of_loops():
 
 
 @pytest.mark.parametrize("output", ["SELECT", "CUT"])
-def test_nothing_can_grow(output, last):
+def test_loops_without_room_between_them(output, last):
     obj = torus()
     edit(obj)
     select(obj, [pair for i in range(24) for pair in pairs(torus_ring(i))])
     cancelled(obj, output=output, min_salience=0.0)
     assert "no faces around it to search: select fewer contours" in last.message
-    assert "beside it kept the search back" in last.message
+    assert "nearby limited the search" in last.message
 
 
-def test_where_nothing_can_grow_the_contour_is_output_all_the_same(last):
+def test_loops_without_room_are_output_anyway(last):
     obj = cylinder_of_loops()
-    expected = flagged(obj, "select")
+    expected = marked_edges(obj, "select")
     assert bpy.ops.mesh.optimize_contour(output="SEAM", min_salience=0.0) == {"FINISHED"}
-    assert flagged(obj, "seam") == expected
+    assert marked_edges(obj, "seam") == expected
     assert "no faces around it to search: select fewer contours" in last.message
 
 
 def test_a_linked_mesh(tmp_path):
-    """Blender has no Edit Mode for it; the message says how to get there."""
+    """Blender cannot edit it; the message says how to make it editable."""
     library = str(tmp_path / "library.blend")
     bpy.data.libraries.write(library, {grooved_cylinder("Linked")})
     with bpy.data.libraries.load(library, link=True) as (_, linked):
@@ -283,7 +283,7 @@ def test_a_linked_mesh(tmp_path):
     bpy.context.scene.collection.objects.link(linked.objects[0])
     bpy.context.view_layer.objects.active = linked.objects[0]
     try:
-        with pytest.raises(RuntimeError, match="read only: make it local first"):
+        with pytest.raises(RuntimeError, match="read-only: make it local first"):
             bpy.ops.mesh.optimize_contour()
     finally:
         bpy.data.libraries.remove(linked.objects[0].library)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cutting contours into faces: where the cut runs, what the faces become, and that every layer survives."""
+"""Cutting contours into faces: the path of the cut, the new faces, and the values of all layers."""
 
 from itertools import pairwise
 
@@ -24,7 +24,7 @@ SEEDS = range(8)
 
 
 def random_planes(seed, count):
-    """Planes that are apart from each other, as (normal, offset)."""
+    """Return planes at a distance from each other, as (normal, offset)."""
     rng = np.random.default_rng(seed)
     normal = rng.normal(size=3)
     normal /= np.linalg.norm(normal)
@@ -48,7 +48,7 @@ def make(kind, seed):
 
 
 def distance_to_path(point, path):
-    """From a point to a polyline, (n, 3)."""
+    """Return the distance from a point to an (n, 3) polyline."""
     starts, steps = path[:-1], np.diff(path, axis=0)
     t = np.clip(((point - starts) * steps).sum(1) / np.maximum((steps**2).sum(1), 1e-30), 0, 1)
     return np.linalg.norm(starts + t[:, None] * steps - point, axis=1).min()
@@ -60,7 +60,7 @@ def mesh_points(obj):
 
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("kind", ["plate", "sphere"])
-def test_the_cut_runs_along_edges_and_exactly_where_the_contour_does(kind, seed):
+def test_the_cut_runs_along_edges_and_exactly_along_the_contour(kind, seed):
     obj = make(kind, seed)
     contours = some_contours(obj, seed)
     wanted = [positions(obj, contour) for contour in contours]
@@ -78,7 +78,7 @@ def test_the_cut_runs_along_edges_and_exactly_where_the_contour_does(kind, seed)
 
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("kind", ["plate", "sphere"])
-def test_what_is_left_is_a_sound_mesh(kind, seed):
+def test_the_mesh_is_valid_after_a_cut(kind, seed):
     obj = make(kind, seed)
     chains = cut_mesh(obj, some_contours(obj, seed))
     assert sum(map(len, chains)) > 10
@@ -92,7 +92,7 @@ def test_what_is_left_is_a_sound_mesh(kind, seed):
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_area_is_preserved(seed):
-    """Of plane faces; a bent polygon has no area of its own."""
+    """Only for planar faces: the area of a nonplanar polygon is not defined."""
     for obj in (rough_plate(seed), rough_sphere(seed, dissolve=0.0)):
         bm = bmesh.new()
         bm.from_mesh(obj.data)
@@ -109,7 +109,7 @@ def linear(points):
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_layers_are_interpolated(seed):
-    """What follows the positions linearly before the cut does so afterwards, on plane faces."""
+    """Values that are linear in the positions stay so after the cut, on planar faces."""
     for obj in (rough_plate(seed), rough_sphere(seed, dissolve=0.0)):
         add_attributes(obj, linear)
         count = len(obj.data.vertices)
@@ -129,7 +129,7 @@ def test_layers_are_interpolated(seed):
             ("Wind", "vector", 3, 3e-6),
             ("Paint", "color", 4, 3e-6),
             ("Stretch", "vector", 2, 3e-6),
-            ("Dust", "color", 4, 0.03),  # eight bits
+            ("Dust", "color", 4, 0.03),  # 8-bit values
         ):
             values = read_attribute(obj, name, field, width)
             expected = linear(corners if len(values) == len(corners) else points)
@@ -139,8 +139,8 @@ def test_layers_are_interpolated(seed):
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_flags_are_inherited_by_the_pieces(seed):
-    """Both halves of an edge are what it was; a new edge inside a face is plain; pieces of a face are like the face."""
+def test_pieces_inherit_marks(seed):
+    """Halves of an edge keep its marks, new edges inside a face have none, and pieces of a face are like the face."""
     obj = rough_sphere(seed)
     rng = np.random.default_rng(seed)
     for edge in obj.data.edges:
@@ -168,7 +168,7 @@ def face_kinds(obj):
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_what_no_contour_touches_stays_bit_for_bit(seed):
+def test_elements_that_no_contour_touches_are_bitwise_unchanged(seed):
     obj = rough_sphere(seed)
     add_attributes(obj, linear)
     contours = some_contours(obj, seed, 1)
@@ -198,7 +198,7 @@ def face_data(obj, face):
     )
 
 
-def test_faces_keep_what_is_theirs():
+def test_pieces_of_faces_keep_the_data_of_their_face():
     obj = rough_plate(3)
     add_attributes(obj, linear)
     by_center = face_numbers(obj)
@@ -215,7 +215,7 @@ def face_numbers(obj):
     return [(np.array(face.center), data[face.index].value) for face in obj.data.polygons]
 
 
-def test_a_contour_along_edges_leaves_the_mesh_as_it_is():
+def test_a_contour_along_edges_does_not_change_the_mesh():
     obj = grooved_cylinder()
     loop = rough_loop(GROOVE - 3)
     result = api.optimize_contour(obj, loop)

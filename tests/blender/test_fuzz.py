@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""mesh.optimize_contour on random meshes, selections and settings: whatever is asked, the mesh stays sound."""
+"""mesh.optimize_contour on random meshes, selections and settings: the mesh stays valid whatever happens."""
 
 from collections import Counter
 
@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from contour_shapes import add_attributes, edges_by_ends, rough_plate, rough_sphere
-from made_meshes import OUTPUTS, edit, everything, grooved_cylinder
+from made_meshes import OUTPUTS, edit, grooved_cylinder, mesh_state
 
 CASES, CHUNK = 500, 25
 ALONG_EDGES = ("SELECT", "SEAM", "SHARP", "CUT")
@@ -25,8 +25,8 @@ def test_random_runs(first):
             raise AssertionError(f"with seed {seed}") from error
 
 
-def test_the_runs_were_of_every_kind():
-    """Else the test above says nothing. Runs that are cancelled are of interest, too."""
+def test_the_random_runs_had_every_outcome():
+    """Otherwise the test above would prove little. Canceled runs count, too."""
     if sum(counts.values()) < CASES:
         pytest.skip("not all runs were made")
     for output in OUTPUTS:
@@ -48,11 +48,11 @@ def check_run(rng):
     select_some(obj, rng)
     settings = random_settings(rng)
     bpy.ops.ed.undo_push(message="before")
-    before, hidden = everything(obj), hidden_shapes(obj)
+    before, hidden = mesh_state(obj), hidden_shapes(obj)
     name = obj.name
     (status,) = bpy.ops.mesh.optimize_contour("EXEC_DEFAULT", True, **settings)
     obj = bpy.data.objects[name]
-    after = everything(obj)
+    after = mesh_state(obj)
     counts[settings["output"], settings["refinement"] > 0, status] += 1
     if status == "CANCELLED":
         assert after == before
@@ -61,11 +61,11 @@ def check_run(rng):
     assert hidden_shapes(obj) == hidden
     check_sound(obj)
     if settings["output"] in ALONG_EDGES and settings["refinement"] == 0:
-        assert unflagged(after) == unflagged(before)
+        assert without_marks(after) == without_marks(before)
     if settings["output"] != "SEPARATE":
         assert not vertex_rows(before) - vertex_rows(after)
     bpy.ops.ed.undo()
-    assert everything(bpy.data.objects[name]) == before
+    assert mesh_state(bpy.data.objects[name]) == before
     assert len(bpy.data.objects) == 1
 
 
@@ -119,7 +119,7 @@ def select_some(obj, rng):
 
 
 def select_region(bm, faces):
-    """In face mode the region itself, else its border."""
+    """Select a region in face mode, otherwise its border."""
     if bm.select_mode == {"FACE"}:
         for face in faces:
             face.select_set(not face.hide)
@@ -130,7 +130,7 @@ def select_region(bm, faces):
 
 
 def select_walk(bm, rng):
-    """A chain that goes on as straight as it can."""
+    """Select a chain that continues as straight as possible."""
     vertex, direction = some(bm.verts, rng), rng.normal(size=3)
     for _ in range(int(rng.integers(2, 30))):
         edges = [edge for edge in vertex.link_edges if not edge.select and not edge.hide]
@@ -148,7 +148,7 @@ def some(elements, rng):
 
 
 def blob(bm, rng, size):
-    """The faces round one, nearest first; about as many as asked for."""
+    """Return about so many faces around one face, nearest first."""
     center = np.array(some(bm.faces, rng).calc_center_median())
     by_distance = sorted(bm.faces, key=lambda face: np.sum((np.array(face.calc_center_median()) - center) ** 2))
     return by_distance[: int(size * rng.uniform(0.8, 1.2))]
@@ -181,13 +181,13 @@ def check_sound(obj):
 
 
 def hidden_shapes(obj):
-    """What is hidden, by where it lies; ids may change."""
+    """Return the positions of hidden elements, whose ids may change."""
     bm = bmesh.from_edit_mesh(obj.data)
     return Counter(tuple(tuple(vertex.co) for vertex in face.verts) for face in bm.faces if face.hide)
 
 
-def unflagged(state):
-    """All but what is selected, seam and sharp."""
+def without_marks(state):
+    """Return the state of a mesh without selection, seams and sharp edges."""
     return (
         [(co, hide) for co, _, hide in state["vertices"]],
         [(a, b, hide) for a, b, _, hide, _, _ in state["edges"]],
@@ -197,6 +197,6 @@ def unflagged(state):
 
 
 def vertex_rows(state):
-    """The vertices with all that their layers hold, whatever their ids."""
+    """Return the vertices with the values of all layers, independent of their ids."""
     layers = [values for (domain, _, _), values in state["layers"].items() if domain == "vertex"]
     return Counter(zip((co for co, _, _ in state["vertices"]), *layers))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The gallery's jobs and files do what its page says, in this Blender; only the pictures are left out."""
+"""The gallery's jobs and files do what its page says, in this Blender. The pictures are not drawn."""
 
 import importlib
 import sys
@@ -22,7 +22,7 @@ FAR = preset_values("FAR")
 @pytest.mark.parametrize(
     ("job", "contours"), [("character_seams", 9), ("character_printed", 9), ("hand_segmentation", 5)]
 )
-def test_a_job_passes_its_own_checks_and_all_contours_get_better(job, contours, monkeypatch, tmp_path):
+def test_a_job_passes_its_own_checks_and_all_contours_improve(job, contours, monkeypatch, tmp_path):
     drawn = []
     monkeypatch.setattr(gallery.drawing, "draw_if_changed", lambda path, *_: drawn.append(path.name))
     rows = getattr(gallery, job)(SAMPLES / f"{gallery.JOBS[job]}.blend", tmp_path, api)
@@ -62,8 +62,8 @@ def has_selection(path):
         ("torso", FAR, set()),
     ],
 )
-def test_what_a_modeler_gets_from_the_selected_loops_is_what_the_page_says(sample, settings, stay):
-    """The loops named are not where the pictures have them, but stay or stop on the way."""
+def test_the_selected_loops_give_what_the_page_says(sample, settings, stay):
+    """The loops named here do not end where the pictures show them: they stay, or stop earlier."""
     bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / f"{sample}.blend"))
     ob = bpy.context.view_layer.objects.active
     pictured = {name: pictured_contour(ob, name) for name in blender_meshes.stored_loops(ob.data, blender_meshes.ROUGH)}
@@ -76,7 +76,7 @@ def test_what_a_modeler_gets_from_the_selected_loops_is_what_the_page_says(sampl
 
 
 def pictured_contour(ob, name):
-    """With the settings stored for the loop, as in the pictures."""
+    """Return the contour for the settings stored with the loop, as in the pictures."""
     stored = ob.get(blender_meshes.SETTINGS + name)
     loop = blender_meshes.stored_loops(ob.data, blender_meshes.ROUGH)[name]
     return positions(ob)[list(api.optimize_contour(ob, loop, **(stored.to_dict() if stored else {})).vertices)]
@@ -87,5 +87,5 @@ def positions(ob):
 
 
 def mean_gap(points, others):
-    """From each of the points to the nearest of the others."""
+    """Return the mean distance from each point to the nearest of the others."""
     return np.linalg.norm(points[:, None] - others[None], axis=2).min(axis=1).mean()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The example script, in this Blender: reads a file, improves its seams, prints JSON, writes a file, or fails."""
+"""The example script in this Blender: it reads a file, improves the seams, prints JSON and writes a file, or fails."""
 
 import importlib
 import json
@@ -11,7 +11,7 @@ from types import SimpleNamespace
 
 import bpy
 import pytest
-from made_meshes import GROOVE, START, edge_set, edit, grooved_cylinder, pairs, ring, set_flag
+from made_meshes import GROOVE, START, edge_set, edit, grooved_cylinder, mark_edges, pairs, ring
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "blend_samples"))
 ROOT = Path(__file__).resolve().parents[2]
@@ -20,10 +20,10 @@ improve_seams = importlib.import_module("improve_seams")
 
 @pytest.fixture
 def files(tmp_path):
-    """A .blend file with a rough seam, a mesh without seams and a second user of the first mesh; and one to write."""
+    """A .blend file with a rough seam, a mesh without seams and a second user of the first mesh; and the output path."""
     obj = grooved_cylinder()
     edit(obj)
-    set_flag(obj, pairs(START), "seam")
+    mark_edges(obj, pairs(START), "seam")
     bpy.ops.object.mode_set(mode="OBJECT")
     bpy.context.scene.collection.objects.link(bpy.data.objects.new("Twin", obj.data))
     grooved_cylinder("Plain")
@@ -32,7 +32,7 @@ def files(tmp_path):
 
 
 def run(monkeypatch, capfd, *arguments):
-    """The script's exit code and what it prints."""
+    """Run the script and return its exit code and the printed summary."""
     monkeypatch.setattr(sys, "argv", ["blender", "--", *map(str, arguments)])
     code = improve_seams.main()
     (line,) = (line for line in capfd.readouterr().out.splitlines() if line.startswith("{"))
@@ -45,7 +45,7 @@ def seams(path):
     return {frozenset(edge.vertices) for edge in mesh.edges if edge.use_seam}
 
 
-def test_seams_move_and_the_other_file_has_them(files, monkeypatch, capfd):
+def test_seams_move_in_the_output_file(files, monkeypatch, capfd):
     given, written = files
     code, summary = run(monkeypatch, capfd, given, written, "--width", 10)
     assert code == 0
@@ -61,7 +61,7 @@ def test_seams_move_and_the_other_file_has_them(files, monkeypatch, capfd):
 
 
 @pytest.mark.parametrize("page", ["README.md", "addon/README.md"])
-def test_the_documents_command_line(page, files, monkeypatch, capfd):
+def test_the_command_line_in_the_manual(page, files, monkeypatch, capfd):
     given, written = files
     text = (ROOT / page).read_text(encoding="utf-8")
     (line,) = re.findall(r"^    (blender .*improve_seams.py.*)$", text, re.MULTILINE)
@@ -74,7 +74,7 @@ def test_the_documents_command_line(page, files, monkeypatch, capfd):
     assert seams(written) == edge_set(ring(GROOVE))
 
 
-def test_only_the_named_objects(files, monkeypatch, capfd):
+def test_only_named_objects_are_changed(files, monkeypatch, capfd):
     code, summary = run(monkeypatch, capfd, *files, "--object", "Plain")
     assert (code, [entry["object"] for entry in summary["objects"]]) == (0, ["Plain"])
     assert seams(files[1]) == edge_set(START)
@@ -91,7 +91,7 @@ def test_failures_write_nothing_and_say_why(files, monkeypatch, capfd):
         assert words in summary["error"]
 
 
-def test_a_mesh_that_fails_keeps_all_from_being_written(files, monkeypatch, capfd):
+def test_nothing_is_written_if_one_mesh_fails(files, monkeypatch, capfd):
     def refuse(obj, **_):
         raise ValueError(f"{obj.name} is refused")
 
@@ -101,7 +101,7 @@ def test_a_mesh_that_fails_keeps_all_from_being_written(files, monkeypatch, capf
     assert "Cylinder: Cylinder is refused" in summary["error"]
 
 
-def test_what_nobody_expected_is_a_failure_too(files, monkeypatch, capfd):
+def test_an_unexpected_exception_is_a_failure(files, monkeypatch, capfd):
     monkeypatch.setattr("minimum_ratio_contours.api.optimize_seams", lambda obj, **_: 1 / 0)
     code, summary = run(monkeypatch, capfd, *files)
     assert (code, files[1].exists()) == (1, False)
@@ -117,7 +117,7 @@ def test_unknown_settings_are_refused(files, monkeypatch):
 
 @pytest.mark.parametrize("name", ["minimum_ratio_contours", "bl_ext.user_default.minimum_ratio_contours"])
 @pytest.mark.parametrize("enabled", [False, True])
-def test_either_install_is_found(name, enabled, monkeypatch):
+def test_both_kinds_of_installation_are_found(name, enabled, monkeypatch):
     asked = []
     others = [SimpleNamespace(__name__=other) for other in ("io_scene_fbx", name, "not_minimum_ratio_contours")]
     monkeypatch.setattr(improve_seams.addon_utils, "modules", lambda: others)
@@ -127,7 +127,7 @@ def test_either_install_is_found(name, enabled, monkeypatch):
     assert asked == ([] if enabled else [name])
 
 
-def test_without_the_addon_it_says_so(monkeypatch, capfd):
+def test_a_missing_addon_is_reported(monkeypatch, capfd):
     monkeypatch.setattr(improve_seams.addon_utils, "modules", lambda: [])
     code, summary = run(monkeypatch, capfd, "in.blend", "out.blend")
     assert (code, summary["error"]) == (1, "the add-on minimum_ratio_contours is not installed")

@@ -12,17 +12,17 @@ from made_meshes import (
     START,
     edge_set,
     edit,
-    everything,
     find_edges,
-    flagged,
     grooved_cylinder,
+    mark_edges,
+    marked_edges,
+    mesh_state,
     pairs,
     ring,
     rough_loop,
     run,
     select,
     select_faces_below,
-    set_flag,
 )
 from minimum_ratio_contours import api
 
@@ -34,7 +34,7 @@ def start(obj, loop=START, mode="EDGE"):
 
 
 def group(obj, vertices, name="Group", weight=1.0):
-    """Adds vertices to a vertex group, in Object Mode."""
+    """Add vertices to a vertex group, in Object Mode."""
     found = obj.vertex_groups.get(name) or obj.vertex_groups.new(name=name)
     found.add([int(vertex) for vertex in vertices], weight, "REPLACE")
 
@@ -52,7 +52,7 @@ def mark(obj, edges, kind):
     if kind == "CREASE":
         crease(obj, edges)
     else:
-        set_flag(obj, edges, kind.lower())
+        mark_edges(obj, edges, kind.lower())
 
 
 def selected_vertices(obj):
@@ -60,7 +60,7 @@ def selected_vertices(obj):
 
 
 def heights(obj):
-    """The rows of the cylinder that the selected contour touches."""
+    """Return the rows of the cylinder that the selected contour touches."""
     return sorted({vertex // SEGMENTS for vertex in selected_vertices(obj)})
 
 
@@ -76,7 +76,7 @@ def test_required_vertices_are_passed(mode, last):
     start(obj, mode=mode)
     assert run(required_group="Pins") == {"FINISHED"}
     assert set(required) <= selected_vertices(obj)
-    assert flagged(obj, "select") != edge_set(ring(GROOVE))
+    assert marked_edges(obj, "select") != edge_set(ring(GROOVE))
 
 
 def test_required_vertices_outside_the_band_are_counted_and_selected(last):
@@ -88,11 +88,11 @@ def test_required_vertices_outside_the_band_are_counted_and_selected(last):
     assert "3 required vertices lie outside the band that is searched: widen it" in last.message
     assert selected_vertices(obj) == set(outside)
     assert bpy.context.tool_settings.mesh_select_mode[:] == (True, False, False)
-    assert not flagged(obj, "seam")
+    assert not marked_edges(obj, "seam")
 
 
-def test_required_vertices_outside_in_one_object_do_not_keep_the_others(last):
-    """What the report counts as improved is written; and the other object's selection is that of its contour."""
+def test_required_vertices_outside_in_one_object_do_not_block_the_others(last):
+    """Contours reported as improved are written, and the selection of the other object is its contour."""
     bad, sound = grooved_cylinder("Bad"), grooved_cylinder("Sound")
     outside = ring(0)[3]
     group(bad, [outside], "Pins")
@@ -102,8 +102,8 @@ def test_required_vertices_outside_in_one_object_do_not_keep_the_others(last):
         select(obj, pairs(START))
     assert run(required_group="Pins", width=3, output="SEAM") == {"FINISHED"}
     assert last.message.startswith("1 contour improved")
-    assert not flagged(bad, "seam")
-    assert flagged(sound, "seam") == flagged(sound, "select") == edge_set(ring(GROOVE))
+    assert not marked_edges(bad, "seam")
+    assert marked_edges(sound, "seam") == marked_edges(sound, "select") == edge_set(ring(GROOVE))
     assert selected_vertices(bad) == {outside}
 
 
@@ -116,7 +116,7 @@ def test_adjusting_selects_the_required_vertices_outside_too(last):
     assert selected_vertices(obj) == {ring(0)[3]}
 
 
-def test_undo_and_redo_with_a_wider_band_find_the_selection_and_its_mode_again():
+def test_undo_and_redo_with_a_wider_band_restore_the_selection_and_its_mode():
     obj = grooved_cylinder()
     group(obj, [ring(GROOVE + 4)[3]], "Pins")
     start(obj)
@@ -126,7 +126,7 @@ def test_undo_and_redo_with_a_wider_band_find_the_selection_and_its_mode_again()
     bpy.ops.ed.undo()
     obj = bpy.context.object
     assert bpy.context.tool_settings.mesh_select_mode[:] == (False, True, False)
-    assert flagged(obj, "select") == edge_set(START)
+    assert marked_edges(obj, "select") == edge_set(START)
     run(required_group="Pins", width=10, reach=0.0)
     assert ring(GROOVE + 4)[3] in selected_vertices(obj)
 
@@ -138,29 +138,29 @@ def test_each_required_vertex_goes_to_the_nearest_contour():
     start(obj, rough_loop(4))
     select(obj, pairs(rough_loop(13)))
     run(required_group="Pins", output="SEAM")
-    seams = {vertex for edge in flagged(obj, "seam") for vertex in edge}
+    seams = {vertex for edge in marked_edges(obj, "seam") for vertex in edge}
     assert {low, high} <= seams
-    assert edge_set(ring(5)) & flagged(obj, "seam")
-    assert edge_set(ring(15)) & flagged(obj, "seam")
+    assert edge_set(ring(5)) & marked_edges(obj, "seam")
+    assert edge_set(ring(15)) & marked_edges(obj, "seam")
 
 
-def test_what_cannot_be_joined_is_refused(last):
-    """No contour that runs round once passes all vertices of a column."""
+def test_required_vertices_that_no_contour_can_pass_are_refused(last):
+    """No contour that winds around once can pass all vertices of a column."""
     obj = grooved_cylinder()
     group(obj, [ring(row)[4] for row in range(GROOVE - 3, GROOVE + 3)] + [ring(GROOVE)[5], ring(GROOVE)[3]], "Pins")
     start(obj)
-    before = everything(obj)
+    before = mesh_state(obj)
     assert run(required_group="Pins", max_turn=0.3, reach=0.0) == {"CANCELLED"}
     assert "no contour in the band passes all required vertices: raise Width, Reach or Sharpest Turn" in last.message
-    assert everything(obj) == before
+    assert mesh_state(obj) == before
 
 
 # ---- attractors
 
 
 @pytest.mark.parametrize("strength", [20.0, 0.0, -20.0])
-def test_a_painted_ring_draws_the_contour_by_its_strength(strength):
-    """On a plain cylinder every ring is alike; on both sides of the given one the painted one wins, or loses."""
+def test_a_painted_ring_attracts_or_repels_by_its_strength(strength):
+    """On a plain cylinder all rings are equal, so the sign of the strength decides about the painted one."""
     obj = grooved_cylinder(depth=0)
     group(obj, ring(GROOVE))
     start(obj)
@@ -168,7 +168,7 @@ def test_a_painted_ring_draws_the_contour_by_its_strength(strength):
     assert (heights(obj) == [GROOVE]) == (strength > 0)
 
 
-def test_attractors_outweigh_the_least_salience():
+def test_attractors_override_the_least_salience():
     obj = grooved_cylinder(depth=0)
     group(obj, ring(GROOVE - 2))
     start(obj)
@@ -179,7 +179,7 @@ def test_attractors_outweigh_the_least_salience():
     assert heights(obj) == [GROOVE - 2]
 
 
-def test_a_greater_weight_draws_more():
+def test_a_greater_weight_attracts_more_strongly():
     obj = grooved_cylinder(depth=0)
     group(obj, ring(8), weight=0.2)
     group(obj, ring(14), weight=1.0)
@@ -189,7 +189,7 @@ def test_a_greater_weight_draws_more():
 
 
 @pytest.mark.parametrize("kind", ["SEAM", "SHARP", "CREASE"])
-def test_marked_edges_draw_the_contour(kind):
+def test_marked_edges_attract_the_contour(kind):
     obj = start(grooved_cylinder(depth=0))
     mark(obj, pairs(ring(GROOVE)), kind)
     run(attractor_marks={kind})
@@ -200,7 +200,7 @@ def test_marks_along_the_given_contour_do_not_hold_it():
     obj = start(grooved_cylinder())
     mark(obj, pairs(START), "SEAM")
     run(attractor_marks={"SEAM"}, barrier_marks={"SEAM"}, output="SEAM")
-    assert flagged(obj, "seam") == edge_set(ring(GROOVE))
+    assert marked_edges(obj, "seam") == edge_set(ring(GROOVE))
 
 
 # ---- barriers
@@ -218,21 +218,21 @@ def test_marked_edges_are_not_crossed(kind):
     assert max(heights(obj)) <= GROOVE - 2
 
 
-def test_a_contour_across_a_barrier_is_left_and_the_others_move(last):
+def test_a_contour_across_a_barrier_stays_and_the_others_move(last):
     obj = grooved_cylinder(grooves=(5, 15))
     start(obj, rough_loop(4))
     select(obj, pairs(rough_loop(13)))
     mark(obj, pairs([ring(row)[7] for row in range(3, 9)], closed=False), "SHARP")
     assert run(barrier_marks={"SHARP"}, output="SEAM") == {"FINISHED"}
-    assert "Left as it is: the contour crosses a barrier" in last.message
-    assert flagged(obj, "seam") == edge_set(ring(15))
+    assert "Left unchanged: the contour crosses a barrier" in last.message
+    assert marked_edges(obj, "seam") == edge_set(ring(15))
 
 
 # ---- regions
 
 
 def paint(obj, faces, kind):
-    """Paints faces of the cylinder in Object Mode, and returns the operator's properties that name the layer."""
+    """Paint faces of the cylinder in Object Mode and return the operator's properties that name the layer."""
     mesh = obj.data
     values = np.zeros(len(mesh.polygons))
     values[list(faces)] = 1.0
@@ -261,8 +261,8 @@ LAYERS = ["GROUP", "ATTRIBUTE", "INTEGER"] + [
 
 @pytest.mark.parametrize("kind", LAYERS, ids=str)
 @pytest.mark.parametrize("upper", [True, False])
-def test_the_contour_takes_in_what_is_painted(kind, upper):
-    """A plain cylinder painted from one end to beyond a loop: the loop moves to the border of the paint."""
+def test_the_contour_takes_in_the_painted_faces(kind, upper):
+    """On a plain cylinder painted from one end to beyond a loop, the loop moves to the border of the paint."""
     obj = grooved_cylinder(depth=0)
     rows = range(8, RINGS - 1) if upper else range(12)
     asked = paint(obj, [row * SEGMENTS + column for row in rows for column in range(SEGMENTS)], kind)
@@ -277,8 +277,8 @@ def test_the_contour_takes_in_what_is_painted(kind, upper):
     assert row > 10 if upper else row < 10
 
 
-def test_in_face_mode_the_selected_part_takes_in_what_is_painted():
-    """Though most of what is painted lies on the other side."""
+def test_in_face_mode_the_selected_part_takes_in_the_painted_faces():
+    """Even if most painted faces lie on the other side."""
     obj = grooved_cylinder(depth=0)
     asked = paint(obj, range(8 * SEGMENTS, 16 * SEGMENTS), "ATTRIBUTE")
     edit(obj, mode="FACE")
@@ -288,15 +288,15 @@ def test_in_face_mode_the_selected_part_takes_in_what_is_painted():
     assert sum(face.select for face in bmesh.from_edit_mesh(obj.data).faces) > before
 
 
-def test_an_open_chain_encloses_nothing(last):
+def test_an_open_chain_cannot_have_a_region(last):
     obj = grooved_cylinder()
     asked = paint(obj, range(40), "ATTRIBUTE")
     edit(obj)
     select(obj, pairs(START[:12], closed=False))
-    before = everything(obj)
+    before = mesh_state(obj)
     assert run(**asked) == {"CANCELLED"}
-    assert "an open chain encloses no region" in last.message
-    assert everything(obj) == before
+    assert "an open chain does not enclose a region" in last.message
+    assert mesh_state(obj) == before
 
 
 # ---- what is missing
@@ -307,7 +307,7 @@ def test_an_open_chain_encloses_nothing(last):
     [
         ({"required_group": "Pins"}, "there is no vertex group named Pins"),
         ({"attractor_group": "Pins"}, "there is no vertex group named Pins"),
-        ({"region_source": "GROUP"}, "no vertex group is named"),
+        ({"region_source": "GROUP"}, "no vertex group is chosen: choose one under Constraints, or set Region to None"),
         ({"region_source": "GROUP", "region_layer": "Pins"}, "there is no vertex group named Pins"),
         ({"region_source": "ATTRIBUTE", "region_layer": "Pins"}, "there is no face attribute named Pins"),
         ({"region_source": "COLOR", "region_layer": "Pins"}, "there is no color attribute named Pins"),
@@ -315,10 +315,10 @@ def test_an_open_chain_encloses_nothing(last):
 )
 def test_missing_layers_are_named(asked, words, last):
     obj = start(grooved_cylinder())
-    before = everything(obj)
+    before = mesh_state(obj)
     assert run(**asked) == {"CANCELLED"}
     assert words in last.message
-    assert everything(obj) == before
+    assert mesh_state(obj) == before
     bpy.ops.object.mode_set(mode="OBJECT")
     with pytest.raises(ValueError, match=words):
         api.optimize_contour(obj, START, **asked)

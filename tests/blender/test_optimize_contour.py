@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""mesh.optimize_contour on made meshes: every output, several loops and objects, and what must stay as it is."""
+"""mesh.optimize_contour on simple meshes: every output, several loops and objects, and what must not change."""
 
 import bmesh
 import bpy
@@ -12,24 +12,24 @@ from made_meshes import (
     START,
     edge_set,
     edit,
-    everything,
     find_edges,
-    flagged,
     grooved_cylinder,
+    mark_edges,
+    marked_edges,
     mesh_object,
+    mesh_state,
     pairs,
     ring,
     rough_loop,
     run,
     select,
     select_faces_below,
-    set_flag,
 )
 from minimum_ratio_contours.core import edge_paths
 
 
 def start(mode="EDGE", loop=START):
-    """A grooved cylinder in Edit Mode with a rough loop near the groove selected."""
+    """Make a grooved cylinder in Edit Mode with a rough loop near the groove selected."""
     obj = grooved_cylinder()
     edit(obj, mode=mode)
     select(obj, pairs(loop))
@@ -39,11 +39,11 @@ def start(mode="EDGE", loop=START):
 @pytest.mark.parametrize("mode", ["VERTEX", "EDGE"])
 def test_the_selection_moves_into_the_groove(mode, last, capfd):
     obj = start(mode)
-    assert flagged(obj, "select") == edge_set(START)
+    assert marked_edges(obj, "select") == edge_set(START)
     assert run(output="SELECT") == {"FINISHED"}
-    assert flagged(obj, "select") == GROOVE_EDGES
-    assert not flagged(obj, "seam")
-    assert not flagged(obj, "sharp")
+    assert marked_edges(obj, "select") == GROOVE_EDGES
+    assert not marked_edges(obj, "seam")
+    assert not marked_edges(obj, "sharp")
     numbers = last.contours[0]
     assert (numbers.place, numbers.status) == ("Cylinder", "improved")
     assert numbers.ratio < numbers.initial_ratio
@@ -57,56 +57,56 @@ def test_the_selection_moves_into_the_groove(mode, last, capfd):
 def test_every_flow_finds_the_groove(flow):
     obj = start()
     run(flow=flow)
-    assert flagged(obj, "select") == GROOVE_EDGES
+    assert marked_edges(obj, "select") == GROOVE_EDGES
 
 
 @pytest.mark.parametrize("flag", ["seam", "sharp"])
-def test_a_flag_is_set_along_the_result_and_nowhere_else(flag):
+def test_a_mark_is_set_along_the_result_and_nowhere_else(flag):
     obj = start()
     other = {"seam": "sharp", "sharp": "seam"}[flag]
     assert run(output=flag.upper()) == {"FINISHED"}
-    assert flagged(obj, flag) == flagged(obj, "select") == GROOVE_EDGES
-    assert not flagged(obj, other)
+    assert marked_edges(obj, flag) == marked_edges(obj, "select") == GROOVE_EDGES
+    assert not marked_edges(obj, other)
 
 
 @pytest.mark.parametrize("flag", ["seam", "sharp"])
 @pytest.mark.parametrize("keep_old", [False, True])
-def test_a_flag_along_the_given_loop_moves_unless_it_is_kept(flag, keep_old):
+def test_a_mark_along_the_given_loop_moves_unless_it_is_kept(flag, keep_old):
     obj = start()
     elsewhere = pairs(ring(2))
-    set_flag(obj, pairs(START) + elsewhere, flag)
+    mark_edges(obj, pairs(START) + elsewhere, flag)
     run(output=flag.upper(), keep_old=keep_old)
     expected = GROOVE_EDGES | {frozenset(pair) for pair in elsewhere}
-    assert flagged(obj, flag) == (expected | edge_set(START) if keep_old else expected)
+    assert marked_edges(obj, flag) == (expected | edge_set(START) if keep_old else expected)
 
 
 def test_the_whole_surface_reaches_farther_than_the_width():
     obj = start(loop=rough_loop(2))
     run(width=1, whole_surface=True, anchor=0.0)
-    assert flagged(obj, "select") == GROOVE_EDGES
+    assert marked_edges(obj, "select") == GROOVE_EDGES
 
 
 @pytest.mark.parametrize(("iterations", "arrives"), [(1, False), (64, True)])
 def test_iterations_reach_farther_than_one_search(iterations, arrives):
     obj = start()
     run(width=1, iterations=iterations)
-    assert (flagged(obj, "select") == GROOVE_EDGES) == arrives
+    assert (marked_edges(obj, "select") == GROOVE_EDGES) == arrives
 
 
-def test_an_unchanged_contour_is_output_all_the_same_and_the_report_says_why(last):
+def test_an_unchanged_contour_is_output_anyway_and_the_report_says_why(last):
     obj = start(loop=ring(GROOVE))
     assert run(output="SEAM") == {"FINISHED"}
-    assert flagged(obj, "seam") == flagged(obj, "select") == GROOVE_EDGES
+    assert marked_edges(obj, "seam") == marked_edges(obj, "select") == GROOVE_EDGES
     assert last.contours[0].status == "unchanged"
     assert last.message.startswith("1 contour unchanged (")
 
 
 def test_a_redo_that_finds_nothing_shows_the_given_contour():
-    """Blender puts the former result back where a redo is cancelled."""
+    """If a redo is canceled, Blender restores the previous result."""
     obj = start(loop=ring(GROOVE))
-    before = everything(obj)
+    before = mesh_state(obj)
     assert run() == {"FINISHED"}
-    assert everything(obj) == before
+    assert mesh_state(obj) == before
 
 
 def test_several_loops_at_once_move_and_never_cross(last):
@@ -114,50 +114,50 @@ def test_several_loops_at_once_move_and_never_cross(last):
     edit(obj)
     select(obj, pairs(rough_loop(4)) + pairs(rough_loop(13)))
     run(output="SEAM")
-    assert flagged(obj, "seam") == edge_set(ring(5)) | edge_set(ring(15))
+    assert marked_edges(obj, "seam") == edge_set(ring(5)) | edge_set(ring(15))
     assert [numbers.status for numbers in last.contours] == ["improved", "improved"]
     assert last.message.startswith("2 contours improved. Mean ratio ")
 
 
-def test_two_loops_beside_one_groove_do_not_both_take_it():
+def test_two_loops_near_one_groove_do_not_both_move_into_it():
     obj = start()
     select(obj, pairs(rough_loop(GROOVE + 1)))
     run(output="SEAM")
-    seams = flagged(obj, "seam")
+    seams = marked_edges(obj, "seam")
     loops = edge_paths.sort_edges([sorted(edge) for edge in seams])
     assert len(loops.loops) == 2
     assert not loops.branching
 
 
 def test_selected_faces_are_those_whose_edges_are_all_selected():
-    """A loop round one face selects that face too; it must not stay selected when the loop moves off."""
+    """A loop around one face selects that face too; it must be deselected when the loop moves away."""
     face = [5 * SEGMENTS, 5 * SEGMENTS + 1, 6 * SEGMENTS + 1, 6 * SEGMENTS]
     obj = start(loop=face)
     assert sum(face.select for face in bmesh.from_edit_mesh(obj.data).faces) == 1
     run(min_salience=0.0, length_bias=0.0, anchor=0.0)
-    assert flagged(obj, "select") != edge_set(face)
+    assert marked_edges(obj, "select") != edge_set(face)
     for face in bmesh.from_edit_mesh(obj.data).faces:
         assert face.select == all(edge.select for edge in face.edges)
 
 
-def test_branches_stay_as_they_are_and_are_named(last, capfd):
+def test_branching_selections_stay_and_are_named(last, capfd):
     obj = start()
     branch = pairs(ring(3)) + [(3 * SEGMENTS, 4 * SEGMENTS)]
     select(obj, branch)
     assert run(output="SEAM") == {"FINISHED"}
-    assert flagged(obj, "seam") == GROOVE_EDGES
-    assert flagged(obj, "select") == GROOVE_EDGES | {frozenset(pair) for pair in branch}
+    assert marked_edges(obj, "seam") == GROOVE_EDGES
+    assert marked_edges(obj, "select") == GROOVE_EDGES | {frozenset(pair) for pair in branch}
     assert f"Warning: {last.message}" in capfd.readouterr().out
     assert f"branches at vertex {3 * SEGMENTS};" in last.message
 
 
 def test_the_border_of_selected_faces_in_face_mode():
-    """The region's rough border moves into the groove, the one at ring 2 has nothing concave to go to."""
+    """The rough border of the region moves into the groove; nothing is concave near its border at ring 2."""
     obj = grooved_cylinder()
     edit(obj, mode="FACE")
     select_faces_below(obj, START)
     run(output="SEAM")
-    seams = flagged(obj, "seam")
+    seams = marked_edges(obj, "seam")
     assert seams > GROOVE_EDGES
     assert not edge_set(START) & (seams - GROOVE_EDGES)
     assert tuple(bpy.context.tool_settings.mesh_select_mode) == (False, False, True)
@@ -176,13 +176,13 @@ def select_first_faces(obj, count):
     bmesh.update_edit_mesh(obj.data)
 
 
-def test_a_region_up_to_the_mesh_border_has_only_its_inner_border():
+def test_only_the_inner_border_of_a_region_at_the_mesh_border_moves():
     obj = grooved_cylinder()
     edit(obj, mode="FACE")
     select_first_faces(obj, (GROOVE - 2) * SEGMENTS)
     run(output="SELECT")
     assert selected_faces(obj) == set(range(GROOVE * SEGMENTS))
-    assert not flagged(obj, "seam")
+    assert not marked_edges(obj, "seam")
 
 
 def test_a_branching_border_of_faces_stays_selected(last):
@@ -195,17 +195,17 @@ def test_a_branching_border_of_faces_stays_selected(last):
         bm.faces[index].select_set(True)
     run(output="SEAM")
     assert "branches" in last.message
-    assert flagged(obj, "seam") == GROOVE_EDGES
+    assert marked_edges(obj, "seam") == GROOVE_EDGES
     assert selected_faces(obj) == {*range(GROOVE * SEGMENTS), *touching}
 
 
-def test_all_objects_in_edit_mode_are_done(last):
+def test_all_objects_in_edit_mode_are_optimized(last):
     first, second = grooved_cylinder("First"), grooved_cylinder("Second")
     edit(first, second)
     for obj in (first, second):
         select(obj, pairs(START))
     assert run(output="SHARP") == {"FINISHED"}
-    assert flagged(first, "sharp") == flagged(second, "sharp") == GROOVE_EDGES
+    assert marked_edges(first, "sharp") == marked_edges(second, "sharp") == GROOVE_EDGES
     assert {numbers.place for numbers in last.contours} == {"First", "Second"}
 
 
@@ -216,22 +216,22 @@ def test_faces_selected_in_several_objects():
         select_first_faces(obj, (GROOVE - 2) * SEGMENTS)
     run(output="SEAM")
     for obj in (first, second):
-        assert flagged(obj, "seam") == GROOVE_EDGES
+        assert marked_edges(obj, "seam") == GROOVE_EDGES
         assert selected_faces(obj) == set(range(GROOVE * SEGMENTS))
 
 
-def test_an_object_with_nothing_to_do_is_named_and_stays_as_it_is(last):
+def test_an_object_with_a_problem_is_named_and_unchanged(last):
     done, left = grooved_cylinder("Done"), grooved_cylinder("Left")
     edit(done, left)
     select(done, pairs(START))
     select(left, pairs(START[:2], closed=False))
-    before = everything(left)
+    before = mesh_state(left)
     assert run(output="SEAM") == {"FINISHED"}
-    assert everything(left) == before
+    assert mesh_state(left) == before
     assert "Left: a single edge" in last.message
 
 
-def test_objects_that_share_a_mesh_are_done_once(last):
+def test_a_shared_mesh_is_optimized_once(last):
     obj = grooved_cylinder()
     twin = bpy.data.objects.new("Twin", obj.data)
     bpy.context.scene.collection.objects.link(twin)
@@ -239,7 +239,7 @@ def test_objects_that_share_a_mesh_are_done_once(last):
     select(obj, pairs(START))
     run()
     assert len(last.contours) == 1
-    assert flagged(obj, "select") == GROOVE_EDGES
+    assert marked_edges(obj, "select") == GROOVE_EDGES
 
 
 def test_hidden_geometry_is_untouched():
@@ -248,7 +248,7 @@ def test_hidden_geometry_is_untouched():
     bm = bmesh.from_edit_mesh(obj.data)
     bm.faces.ensure_lookup_table()
     hidden = [face.index for face in bm.faces[(GROOVE - 1) * SEGMENTS : (GROOVE + 1) * SEGMENTS]]
-    set_flag(obj, pairs(ring(GROOVE)), "sharp")
+    mark_edges(obj, pairs(ring(GROOVE)), "sharp")
     for edge in find_edges(bm, pairs(ring(GROOVE))):
         edge.hide_set(True)
     bmesh.update_edit_mesh(obj.data)
@@ -258,12 +258,12 @@ def test_hidden_geometry_is_untouched():
     bm = bmesh.from_edit_mesh(obj.data)
     assert {face.index for face in bm.faces if face.hide} == set(hidden)
     assert not any(edge.hide and (edge.seam or edge.select) for edge in bm.edges)
-    assert flagged(obj, "sharp") == GROOVE_EDGES
-    assert flagged(obj, "seam")
+    assert marked_edges(obj, "sharp") == GROOVE_EDGES
+    assert marked_edges(obj, "seam")
 
 
 def test_measured_in_object_space(last):
-    """Mirroring, scaling and moving the object changes no number."""
+    """Mirroring, scaling and moving the object changes none of the numbers."""
     obj = start()
     run()
     expected = last.contours[0].initial_ratio, last.contours[0].ratio
@@ -275,11 +275,11 @@ def test_measured_in_object_space(last):
     obj.location = (0, 50, 0)
     bpy.context.view_layer.update()
     run()
-    assert flagged(obj, "select") == GROOVE_EDGES
+    assert marked_edges(obj, "select") == GROOVE_EDGES
     assert (last.contours[0].initial_ratio, last.contours[0].ratio) == expected
 
 
-def test_an_active_shape_key_is_what_is_measured():
+def test_the_active_shape_key_is_measured():
     obj = grooved_cylinder(depth=0)
     obj.shape_key_add(name="Basis")
     key = obj.shape_key_add(name="Groove")
@@ -289,11 +289,11 @@ def test_an_active_shape_key_is_what_is_measured():
     edit(obj)
     select(obj, pairs(START))
     run()
-    assert flagged(obj, "select") == GROOVE_EDGES
+    assert marked_edges(obj, "select") == GROOVE_EDGES
 
 
 def test_ngons():
-    """Quads outside the band joined in pairs along the cylinder leave hexagons; the loop still finds the groove."""
+    """Merging pairs of quads outside the band gives hexagons; the loop still finds the groove."""
     obj = grooved_cylinder()
     edit(obj)
     bm = bmesh.from_edit_mesh(obj.data)
@@ -306,10 +306,10 @@ def test_ngons():
     assert max(len(face.verts) for face in bm.faces) > 4
     select(obj, pairs(START))
     assert run() == {"FINISHED"}
-    assert flagged(obj, "select") == GROOVE_EDGES
+    assert marked_edges(obj, "select") == GROOVE_EDGES
 
 
-def test_nothing_but_flags_and_selection_changes():
+def test_only_marks_and_selection_change():
     obj = grooved_cylinder()
     mesh = obj.data
     mesh.uv_layers.new(name="UVMap")
@@ -319,11 +319,11 @@ def test_nothing_but_flags_and_selection_changes():
     group.add(ring(4), 0.5, "ADD")
     edit(obj)
     select(obj, pairs(START))
-    set_flag(obj, pairs(ring(2)), "sharp")
-    before = everything(obj)
+    mark_edges(obj, pairs(ring(2)), "sharp")
+    before = mesh_state(obj)
     assert len(before["layers"]) >= 3
     run(output="SEAM")
-    after = everything(obj)
+    after = mesh_state(obj)
     assert after["layers"] == before["layers"]
     assert [co for co, _, _ in after["vertices"]] == [co for co, _, _ in before["vertices"]]
     assert [edge[:2] + edge[5:] for edge in after["edges"]] == [edge[:2] + edge[5:] for edge in before["edges"]]
@@ -334,7 +334,7 @@ def test_nothing_but_flags_and_selection_changes():
 
 
 @pytest.mark.parametrize("live", [False, True])
-def test_live_unwrap_follows_a_new_seam(live):
+def test_live_unwrap_uses_a_new_seam(live):
     obj = grooved_cylinder()
     obj.data.uv_layers.new(name="UVMap")
     bpy.context.scene.tool_settings.use_edge_path_live_unwrap = live
@@ -342,11 +342,11 @@ def test_live_unwrap_follows_a_new_seam(live):
     single = pairs(ring(3)[:2], closed=False)
     select(obj, pairs(START) + single)
     uv = ("corner", "uv", "UVMap")
-    before = everything(obj)["layers"][uv]
+    before = mesh_state(obj)["layers"][uv]
     run(output="SEAM")
-    assert (everything(obj)["layers"][uv] != before) == live
-    assert flagged(obj, "seam") == GROOVE_EDGES
-    assert flagged(obj, "select") == GROOVE_EDGES | {frozenset(pair) for pair in single}
+    assert (mesh_state(obj)["layers"][uv] != before) == live
+    assert marked_edges(obj, "seam") == GROOVE_EDGES
+    assert marked_edges(obj, "select") == GROOVE_EDGES | {frozenset(pair) for pair in single}
 
 
 def test_loops_of_loose_edges_are_named(last):
@@ -354,7 +354,7 @@ def test_loops_of_loose_edges_are_named(last):
     obj = mesh_object("Wire", positions, edges=pairs([0, 1, 2, 3]))
     edit(obj)
     select(obj, pairs([0, 1, 2, 3]))
-    before = everything(obj)
+    before = mesh_state(obj)
     assert run() == {"CANCELLED"}
-    assert "a loop with loose edges that no face uses (0-1, 1-2, 2-3 and 1 more)" in last.message
-    assert everything(obj) == before
+    assert "a loop has loose edges that no face uses (0-1, 1-2, 2-3 and 1 more)" in last.message
+    assert mesh_state(obj) == before

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""mesh.optimize_segmentation on made meshes: labels move with the borders of their regions, and none is lost."""
+"""mesh.optimize_segmentation on simple meshes: labels move with the borders of their regions, and none is lost."""
 
 from collections import Counter
 
@@ -7,7 +7,7 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from made_meshes import GROOVE, RINGS, SEGMENTS, edit, everything, grooved_cylinder, mesh_object
+from made_meshes import GROOVE, RINGS, SEGMENTS, edit, grooved_cylinder, mesh_object, mesh_state
 from minimum_ratio_contours import api
 from minimum_ratio_contours.core import native
 from minimum_ratio_contours.mesh import segmentation
@@ -17,7 +17,7 @@ NAMES = {"FACE_SETS": segmentation.FACE_SETS, "ATTRIBUTE": "Part"}
 
 
 def ragged(row, seed=3):
-    """For each face of the cylinder, whether it lies above a zigzag about a row of faces."""
+    """Return for each face of the cylinder whether it lies above a zigzag around a row of faces."""
     rows = row + np.random.default_rng(seed).integers(-1, 2, SEGMENTS)
     return (np.arange(RINGS - 1)[:, None] >= rows).ravel().astype(int)
 
@@ -27,7 +27,7 @@ def straight(row):
 
 
 def set_labels(obj, source, labels):
-    """Gives faces their labels, in Object Mode."""
+    """Set the labels of the faces, in Object Mode."""
     mesh = obj.data
     if source == "MATERIAL":
         for _ in range(max(labels) + 1):
@@ -39,7 +39,7 @@ def set_labels(obj, source, labels):
 
 
 def get_labels(obj, source):
-    """The labels in Edit Mode and out of it."""
+    """Return the labels, in Edit Mode or Object Mode."""
     bm = bmesh.from_edit_mesh(obj.data) if obj.data.is_editmode else bmesh.new()
     if not obj.data.is_editmode:
         bm.from_mesh(obj.data)
@@ -62,7 +62,7 @@ def labeled(labels, source="MATERIAL", **more):
 
 
 @pytest.mark.parametrize("source", SOURCES)
-def test_a_ragged_border_lands_in_the_groove(source, last, capfd):
+def test_a_ragged_border_moves_into_the_groove(source, last, capfd):
     obj = labeled(ragged(GROOVE - 2), source)
     assert run(source) == {"FINISHED"}
     assert get_labels(obj, source).tolist() == straight(GROOVE).tolist()
@@ -71,16 +71,16 @@ def test_a_ragged_border_lands_in_the_groove(source, last, capfd):
 
 
 @pytest.mark.parametrize("source", SOURCES)
-def test_nothing_but_the_labels_changes(source):
+def test_only_the_labels_change(source):
     obj = grooved_cylinder()
     set_labels(obj, source, ragged(GROOVE - 2))
     obj.data.uv_layers.new(name="UVMap")
     obj.data.attributes.new("Other", "INT", "FACE").data.foreach_set("value", range(len(obj.data.polygons)))
     edit(obj)
     bpy.ops.mesh.select_all(action="SELECT")
-    before = everything(obj)
+    before = mesh_state(obj)
     assert run(source) == {"FINISHED"}
-    after = everything(obj)
+    after = mesh_state(obj)
     assert after != before
     assert [after[name] for name in ("vertices", "edges")] == [before[name] for name in ("vertices", "edges")]
     label = ("face", "int", NAMES.get(source))
@@ -95,19 +95,19 @@ def test_nothing_but_the_labels_changes(source):
 def test_undo_and_redo(source):
     labeled(ragged(GROOVE - 2), source)
     bpy.ops.ed.undo_push(message="prepared")
-    before = everything(bpy.data.objects["Cylinder"])
+    before = mesh_state(bpy.data.objects["Cylinder"])
     name = NAMES.get(source, "")
     assert bpy.ops.mesh.optimize_segmentation("EXEC_DEFAULT", True, source=source, attribute=name) == {"FINISHED"}
-    after = everything(bpy.data.objects["Cylinder"])
+    after = mesh_state(bpy.data.objects["Cylinder"])
     assert after != before
     bpy.ops.ed.undo()
-    assert everything(bpy.data.objects["Cylinder"]) == before
+    assert mesh_state(bpy.data.objects["Cylinder"]) == before
     bpy.ops.ed.redo()
-    assert everything(bpy.data.objects["Cylinder"]) == after
+    assert mesh_state(bpy.data.objects["Cylinder"]) == after
 
 
 def test_the_same_label_in_several_places():
-    """A region is a connected piece: both borders of the middle one move, and the ends keep the label they share."""
+    """Regions are connected pieces: both borders of the middle one move, and both ends keep their common label."""
     labels = ragged(GROOVE - 2) + ragged(RINGS - 3)
     labels[labels == 2] = 0
     obj = labeled(labels)
@@ -118,7 +118,7 @@ def test_the_same_label_in_several_places():
     assert (after[-1] == 0).all()
 
 
-def test_three_regions_meet_in_junctions_that_stay():
+def test_junctions_of_three_regions_stay():
     column = np.arange(SEGMENTS) < SEGMENTS // 2
     labels = np.where(ragged(GROOVE - 1).reshape(-1, SEGMENTS), 2, column).ravel()
     obj = labeled(labels)
@@ -130,7 +130,7 @@ def test_three_regions_meet_in_junctions_that_stay():
 
 
 def junctions(obj, labels):
-    """The vertices at which three or more labels meet."""
+    """Return the vertices at which three or more labels meet."""
     return {
         vertex.index
         for vertex in bmesh.from_edit_mesh(obj.data).verts
@@ -156,9 +156,9 @@ def test_hidden_faces_keep_their_labels():
         if face.index % SEGMENTS < 5:
             face.hide_set(True)
     bmesh.update_edit_mesh(obj.data)
-    before = everything(obj)
+    before = mesh_state(obj)
     assert run("MATERIAL") == {"FINISHED"}
-    after = everything(obj)
+    after = mesh_state(obj)
     hidden = [i for i, state in enumerate(before["faces"]) if state[-3]]
     assert len(hidden) == 5 * (RINGS - 1)
     assert [after["faces"][i] for i in hidden] == [before["faces"][i] for i in hidden]
@@ -171,9 +171,9 @@ def test_hidden_faces_keep_their_labels():
 
 
 def cancelled(obj, source, **properties):
-    before = everything(obj)
+    before = mesh_state(obj)
     assert run(source, **properties) == {"CANCELLED"}
-    assert everything(obj) == before
+    assert mesh_state(obj) == before
 
 
 def test_one_region(last):
@@ -187,17 +187,17 @@ def test_no_face_sets(last):
     obj = grooved_cylinder()
     edit(obj)
     cancelled(obj, "FACE_SETS")
-    assert last.message == "Left as it is: there are no face sets: make some in Sculpt Mode, or choose another source"
+    assert last.message == "Left unchanged: there are no face sets: make some in Sculpt Mode, or choose another source"
 
 
 @pytest.mark.parametrize(("kind", "domain"), [("FLOAT", "FACE"), ("INT", "POINT"), ("BOOLEAN", "FACE"), (None, "")])
-def test_an_attribute_that_is_none_of_integers_on_faces(kind, domain, last):
+def test_an_attribute_that_is_not_an_integer_face_attribute(kind, domain, last):
     obj = grooved_cylinder()
     if kind:
         obj.data.attributes.new("Part", kind, domain)
     edit(obj)
     cancelled(obj, "ATTRIBUTE")
-    assert "no integer attribute 'Part' of the faces" in last.message
+    assert "no integer face attribute 'Part'" in last.message
 
 
 def test_an_attribute_without_a_name(last):
@@ -207,30 +207,30 @@ def test_an_attribute_without_a_name(last):
     assert "choose an integer attribute" in last.message
 
 
-def test_one_object_without_labels_is_named_and_the_other_is_done(last):
+def test_an_object_without_labels_is_named_and_the_other_is_optimized(last):
     first, second = grooved_cylinder("First"), grooved_cylinder("Second")
     set_labels(first, "FACE_SETS", ragged(GROOVE - 2))
     edit(first, second)
-    before = everything(second)
+    before = mesh_state(second)
     assert run("FACE_SETS") == {"FINISHED"}
     assert "Second: there are no face sets" in last.message
-    assert everything(second) == before
+    assert mesh_state(second) == before
 
 
-def test_what_is_missing_in_all_objects_is_said_once_and_not_of_those_without_faces(last):
+def test_missing_labels_are_reported_once_and_not_for_objects_without_faces(last):
     edit(grooved_cylinder("First"), grooved_cylinder("Second"), mesh_object("Points", [(0, 0, 0)]))
     assert run("FACE_SETS") == {"CANCELLED"}
-    assert last.message.startswith("Left as it is: there are no face sets")
+    assert last.message.startswith("Left unchanged: there are no face sets")
     assert last.message.count("face sets") == 1
     assert "Points" not in last.message
 
 
-def test_a_border_in_its_place_already(last):
+def test_a_border_that_is_already_optimal(last):
     obj = labeled(straight(GROOVE))
-    before = everything(obj)
-    assert run("MATERIAL") == {"FINISHED"}  # a result, whose settings the redo panel may change
-    assert everything(obj) == before
-    assert last.message.startswith("No better place was found for the borders (it is already the best nearby")
+    before = mesh_state(obj)
+    assert run("MATERIAL") == {"FINISHED"}  # finished, so that the redo panel can change the settings
+    assert mesh_state(obj) == before
+    assert last.message.startswith("No better position was found for the borders (it is already the best nearby")
 
 
 def test_an_empty_mesh():
@@ -247,11 +247,11 @@ def test_object_mode_is_refused():
 
 def test_the_library_missing(monkeypatch):
     obj = labeled(ragged(GROOVE - 2))
-    before = everything(obj)
+    before = mesh_state(obj)
     monkeypatch.setattr(native, "VERSION", "0.0.1")
     with pytest.raises(RuntimeError, match="restart Blender"):
         run("MATERIAL")
-    assert everything(obj) == before
+    assert mesh_state(obj) == before
 
 
 # ---- scripts
@@ -303,7 +303,7 @@ def random_body(rng):
 
 
 def pieces(obj, labels):
-    """For each label, in how many connected pieces of shown faces it lies."""
+    """Return for each label its number of connected pieces of visible faces."""
     bm = bmesh.from_edit_mesh(obj.data)
     pending, count = {face for face in bm.faces if not face.hide}, Counter()
     while pending:
@@ -318,7 +318,7 @@ def pieces(obj, labels):
 
 
 @pytest.mark.parametrize("seed", range(30))
-def test_no_label_is_lost_and_no_region_torn(seed):
+def test_no_label_is_lost_and_no_region_is_split(seed):
     rng = np.random.default_rng(seed)
     obj = random_body(rng)
     source = SOURCES[seed % 3]
@@ -331,9 +331,9 @@ def test_no_label_is_lost_and_no_region_torn(seed):
             if rng.random() < 0.02:
                 face.hide_set(True)
         bmesh.update_edit_mesh(obj.data)
-    before, regions = everything(obj), pieces(obj, labels)
+    before, regions = mesh_state(obj), pieces(obj, labels)
     ran = run(source, width=int(rng.integers(1, 6)), min_salience=0.0)
-    after, new = everything(obj), get_labels(obj, source)
+    after, new = mesh_state(obj), get_labels(obj, source)
     assert (after != before) == (ran == {"FINISHED"})
     assert (new != labels).any() == (ran == {"FINISHED"})
     assert pieces(obj, new) == regions

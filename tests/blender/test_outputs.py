@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What mesh.optimize_contour makes of contours: open chains, cuts, rips, parts of their own, in every select mode."""
+"""The outputs of mesh.optimize_contour: open chains, cuts, rips and separate parts, in every select mode."""
 
 import bmesh
 import bpy
@@ -16,17 +16,17 @@ from made_meshes import (
     dumbbell,
     edge_set,
     edit,
-    everything,
-    flagged,
     grooved_cylinder,
+    mark_edges,
+    marked_edges,
     mesh_object,
+    mesh_state,
     pairs,
     ring,
     rough_loop,
     run,
     select,
     select_faces_below,
-    set_flag,
     torus,
     torus_ring,
 )
@@ -36,7 +36,7 @@ REFINED = {"refinement": 2, "min_salience": 0.0}
 
 
 def tilted_cylinder(name="Cylinder"):
-    """Its groove does not follow the rings, so that the best contour runs across faces."""
+    """Make a cylinder whose groove does not follow the rings, so that the best contour runs across faces."""
     obj = grooved_cylinder(name, depth=0)
     for vertex in obj.data.vertices:
         height = vertex.co.z - 0.2 * GROOVE - 0.45 * vertex.co.x
@@ -58,7 +58,7 @@ def bm_of(obj):
 
 
 def components(bm):
-    """How many pieces the faces form."""
+    """Return the number of connected pieces."""
     left, count = set(bm.faces), 0
     while left:
         count += 1
@@ -90,19 +90,19 @@ def test_a_refined_contour_is_cut_into_the_faces(output):
     assert run(output=output, **REFINED) == {"FINISHED"}
     assert len(bm_of(obj).faces) > faces
     assert is_sound(obj)
-    selected = flagged(obj, "select")
+    selected = marked_edges(obj, "select")
     loops = edge_paths.sort_edges([sorted(edge) for edge in selected])
     assert (len(loops.loops), loops.chains, loops.branching) == (1, [], [])
-    assert flagged(obj, "seam") == (selected if output == "SEAM" else set())
-    assert flagged(obj, "sharp") == (selected if output == "SHARP" else set())
+    assert marked_edges(obj, "seam") == (selected if output == "SEAM" else set())
+    assert marked_edges(obj, "sharp") == (selected if output == "SHARP" else set())
 
 
 @pytest.mark.parametrize("output", OUTPUTS[:4])
 def test_a_regular_contour_cuts_nothing(output):
     obj = start(tilted_cylinder)
-    before = everything(obj)
+    before = mesh_state(obj)
     run(output=output)
-    after = everything(obj)
+    after = mesh_state(obj)
     for kind, fields in (("vertices", 1), ("edges", 2), ("faces", 4)):
         assert [row[:fields] for row in after[kind]] == [row[:fields] for row in before[kind]]
 
@@ -110,32 +110,32 @@ def test_a_regular_contour_cuts_nothing(output):
 @pytest.mark.parametrize("flag", ["seam", "sharp"])
 def test_a_cut_seam_moves_and_is_not_doubled(flag):
     obj = start(tilted_cylinder)
-    set_flag(obj, pairs(START), flag)
+    mark_edges(obj, pairs(START), flag)
     run(output=flag.upper(), **REFINED)
-    assert flagged(obj, flag) == flagged(obj, "select")
+    assert marked_edges(obj, flag) == marked_edges(obj, "select")
 
 
 def length_of(obj, flag):
     bm = bm_of(obj)
     bm.verts.ensure_lookup_table()
-    return sum((bm.verts[a].co - bm.verts[b].co).length for a, b in map(sorted, flagged(obj, flag)))
+    return sum((bm.verts[a].co - bm.verts[b].co).length for a, b in map(sorted, marked_edges(obj, flag)))
 
 
 @pytest.mark.parametrize("flag", ["seam", "sharp"])
 def test_a_kept_seam_stays_whole_where_the_new_one_crosses_it(flag):
     obj = start(tilted_cylinder)
-    set_flag(obj, pairs(START), flag)
+    mark_edges(obj, pairs(START), flag)
     before = length_of(obj, flag)
     run(output=flag.upper(), keep_old=True, **REFINED)
-    old_edges = flagged(obj, flag) - flagged(obj, "select")
+    old_edges = marked_edges(obj, flag) - marked_edges(obj, "select")
     assert old_edges
-    assert flagged(obj, flag) > flagged(obj, "select")
-    # What both share is counted once.
+    assert marked_edges(obj, flag) > marked_edges(obj, "select")
+    # Edges of both contours count once.
     assert before - 1e-5 <= length_of(obj, flag) <= before + length_of(obj, "select") + 1e-5
 
 
-def test_merging_takes_the_points_of_a_cut_to_vertices():
-    """With two points on an edge each lies within 0.35 of an end: what is left are diagonals of faces."""
+def test_merging_moves_the_points_of_a_cut_onto_vertices():
+    """With two points per edge, each is within 0.35 of an end, so that all cuts are diagonals of faces."""
     obj = start(tilted_cylinder)
     vertices, faces = len(bm_of(obj).verts), len(bm_of(obj).faces)
     run(output="CUT", merge=0.35, **REFINED)
@@ -148,7 +148,7 @@ def test_merging_takes_the_points_of_a_cut_to_vertices():
 
 
 def half_way(row):
-    """A chain half way round the cylinder."""
+    """Return a chain halfway around the cylinder."""
     return rough_loop(row)[: SEGMENTS // 2 + 2]
 
 
@@ -161,11 +161,11 @@ def test_an_open_chain_keeps_its_first_and_last_edge(output, last):
     assert run(output=output, anchor=0.0, length_bias=0.0) == {"FINISHED"}
     assert [numbers.status for numbers in last.contours] == ["improved"]
     if output != "RIP":
-        selected = flagged(obj, "select")
+        selected = marked_edges(obj, "select")
         given = [frozenset(pair) for pair in pairs(chain, closed=False)]
         assert {given[0], given[-1]} <= selected
         assert selected != set(given)
-        assert flagged(obj, "seam") == (selected if output == "SEAM" else set())
+        assert marked_edges(obj, "seam") == (selected if output == "SEAM" else set())
 
 
 def test_loops_and_chains_together(last):
@@ -174,7 +174,7 @@ def test_loops_and_chains_together(last):
     select(obj, chain)
     assert run(output="SEAM") == {"FINISHED"}
     assert len(last.contours) == 2
-    assert flagged(obj, "seam") == GROOVE_EDGES | {frozenset(pair) for pair in chain}
+    assert marked_edges(obj, "seam") == GROOVE_EDGES | {frozenset(pair) for pair in chain}
 
 
 VALLEY, BESIDE = 5, 8
@@ -185,7 +185,7 @@ def upright(column):
 
 
 def cylinder_with_a_valley():
-    """The valley runs straight from border to border."""
+    """Make a cylinder with a straight valley from border to border."""
     obj = grooved_cylinder(depth=0)
     for vertex in obj.data.vertices:
         factor = 1 - 0.25 * np.exp(-(((vertex.index % SEGMENTS - VALLEY) / 1.5) ** 2))
@@ -195,12 +195,12 @@ def cylinder_with_a_valley():
 
 
 @pytest.mark.parametrize(("ends", "held"), [("EDGES", 2), ("VERTICES", 1), ("BORDER", 0)])
-def test_what_is_held_at_the_ends(ends, held):
+def test_the_setting_ends_says_what_is_held(ends, held):
     obj = cylinder_with_a_valley()
     edit(obj)
     select(obj, pairs(upright(BESIDE), closed=False))
     run(ends=ends, anchor=0.0, length_bias=0.0, min_salience=0.0, reach=0.0)
-    path = flagged(obj, "select")
+    path = marked_edges(obj, "select")
     vertices = {vertex for edge in path for vertex in edge}
     assert vertices & set(upright(VALLEY))
     first = upright(BESIDE)[:held]
@@ -228,7 +228,7 @@ def test_rip_opens_the_mesh(settings, fill):
     assert sum(edge.is_boundary for edge in bm.edges) == 2 * SEGMENTS + (0 if fill else len(rims))
 
 
-def test_faces_that_fill_a_hole_are_shown_even_beside_hidden_ones():
+def test_faces_that_fill_a_hole_are_visible_even_next_to_hidden_ones():
     obj = start()
     bm = bm_of(obj)
     hidden = [face for face in bm.faces if min(vertex.index // SEGMENTS for vertex in face.verts) >= GROOVE]
@@ -271,8 +271,8 @@ def test_separate_makes_an_object_of_the_smaller_part(settings, fill):
     assert any(edge.select for edge in bm_of(obj).edges)
 
 
-def test_each_part_becomes_an_object_of_its_own():
-    """Of the others: the largest stays."""
+def test_each_part_becomes_a_separate_object():
+    """The largest part stays in the object."""
     obj = grooved_cylinder(grooves=(5, 15))
     edit(obj)
     select(obj, pairs(rough_loop(4)) + pairs(rough_loop(13)))
@@ -304,7 +304,7 @@ def test_of_the_parts_of_a_torus_the_largest_stays(other):
     assert len(bpy.data.objects) == 2
 
 
-def test_the_selected_faces_are_the_part_that_leaves():
+def test_the_selected_faces_are_the_part_that_is_separated():
     obj = grooved_cylinder()
     edit(obj, mode="FACE")
     select_faces_below(obj, START)
@@ -320,19 +320,19 @@ def test_the_selected_faces_are_the_part_that_leaves():
 
 @pytest.mark.parametrize("output", ["RIP", "SEPARATE"])
 @pytest.mark.parametrize("settings", [{}, REFINED])
-def test_a_loop_round_a_torus_separates_nothing(output, settings, last):
+def test_one_loop_around_a_torus_separates_nothing(output, settings, last):
     obj = torus()
     edit(obj)
     select(obj, pairs(torus_ring(0)))
-    before = everything(obj)
+    before = mesh_state(obj)
     assert run(output=output, **settings) == {"CANCELLED"}
-    assert everything(obj) == before
+    assert mesh_state(obj) == before
     assert "does not separate the mesh" in last.message
     assert len(bpy.data.objects) == 1
 
 
 @pytest.mark.parametrize("output", ["RIP", "SEPARATE"])
-def test_two_loops_round_a_torus_do(output):
+def test_two_loops_around_a_torus_separate_it(output):
     obj = torus()
     edit(obj)
     select(obj, pairs(torus_ring(0)) + pairs(torus_ring(8)))
@@ -358,9 +358,9 @@ def test_a_chain_across_the_border_separates_and_one_inside_does_not(last):
     bpy.ops.object.mode_set(mode="OBJECT")
     obj = plate("Inside")
     select(obj, pairs(across[1:-1], closed=False))
-    before = everything(obj)
+    before = mesh_state(obj)
     assert run(output="SEPARATE") == {"CANCELLED"}
-    assert everything(obj) == before
+    assert mesh_state(obj) == before
     assert "the open chain" in last.message
     assert "does not separate" in last.message
     assert run(output="RIP") == {"FINISHED"}
@@ -373,9 +373,9 @@ def test_a_part_that_is_partly_hidden_stays(last):
     bm.faces.ensure_lookup_table()
     bm.faces[-1].hide_set(True)
     bmesh.update_edit_mesh(obj.data)
-    before = everything(obj)
+    before = mesh_state(obj)
     assert run(output="SEPARATE") == {"CANCELLED"}
-    assert everything(obj) == before
+    assert mesh_state(obj) == before
     assert "reveal it first (Alt H)" in last.message
 
 
@@ -390,7 +390,7 @@ def test_separating_in_several_objects_keeps_other_selections():
     assert len(bpy.data.objects) == 4
     for obj in (first, second):
         assert len(bm_of(obj).faces) == GROOVE * SEGMENTS
-    assert {frozenset(pair) for pair in single} < flagged(second, "select")
+    assert {frozenset(pair) for pair in single} < marked_edges(second, "select")
 
 
 # ---- face mode
@@ -417,7 +417,7 @@ def test_face_mode_selects_the_faces_of_the_improved_part(output):
 
 
 def test_an_unselected_hole_in_selected_faces_stays_a_hole():
-    """The complement of a part as selection: its border moves, and all the rest stays selected."""
+    """If all faces but a part are selected, the border of the part moves and the rest stays selected."""
     obj = grooved_cylinder()
     edit(obj, mode="FACE")
     select_faces_below(obj, START)
@@ -441,7 +441,7 @@ def normals_of(mesh):
 
 
 def with_custom_normals(make):
-    """Normals that follow the height smoothly and have little to do with the faces."""
+    """Set normals that vary smoothly with the height and differ from those of the faces."""
     obj = make()
     mesh = obj.data
     if hasattr(mesh, "use_auto_smooth"):
@@ -456,7 +456,7 @@ def custom_normal(position):
     return (normal / np.linalg.norm(normal)).tolist()
 
 
-def test_what_cannot_be_selected_stays_in_edit_mode():
+def test_unselectable_objects_stay_in_edit_mode():
     obj, other = with_custom_normals(tilted_cylinder), grooved_cylinder("Other")
     edit(obj, other)
     other.hide_select = True
@@ -470,7 +470,7 @@ def test_what_cannot_be_selected_stays_in_edit_mode():
 
 @pytest.mark.parametrize("output", ["CUT", "SEAM", "RIP", "SEPARATE"])
 @pytest.mark.parametrize("settings", [{}, REFINED])
-def test_custom_normals_stay(output, settings):
+def test_custom_normals_are_preserved(output, settings):
     obj = with_custom_normals(tilted_cylinder)
     other = grooved_cylinder("Other")
     edit(obj, other)
@@ -491,18 +491,18 @@ def test_custom_normals_stay(output, settings):
 
 
 @pytest.mark.parametrize("output", ["CUT", "SHARP"])
-def test_sharp_edges_stay_what_they_are_beside_custom_normals(output):
-    """Setting custom normals may mark edges as sharp; here none that the contour does not run along."""
+def test_restoring_custom_normals_marks_no_edges_as_sharp(output):
+    """Setting custom normals can mark edges as sharp; here only along the contour."""
     obj = with_custom_normals(tilted_cylinder)
     edit(obj)
-    set_flag(obj, pairs(ring(2)), "sharp")
+    mark_edges(obj, pairs(ring(2)), "sharp")
     select(obj, pairs(START))
     run(output=output, **REFINED)
-    contour = flagged(obj, "select") if output == "SHARP" else set()
-    assert flagged(obj, "sharp") == edge_set(ring(2)) | contour
+    contour = marked_edges(obj, "select") if output == "SHARP" else set()
+    assert marked_edges(obj, "sharp") == edge_set(ring(2)) | contour
 
 
-def test_custom_normals_that_are_vectors_stay():
+def test_custom_normals_stored_as_vectors_are_preserved():
     if bpy.app.version < (4, 5, 0):
         pytest.skip("there are none before Blender 4.5")
     obj = tilted_cylinder()
@@ -522,7 +522,7 @@ def test_custom_normals_that_are_vectors_stay():
     assert np.degrees(np.arccos(np.clip((found * expected).sum(1), -1, 1))).max() < 1.0
 
 
-def test_an_active_shape_key_is_cut_where_it_is_shown():
+def test_an_active_shape_key_is_cut_where_it_is_visible():
     obj = grooved_cylinder(depth=0)
     obj.shape_key_add(name="Basis")
     key = obj.shape_key_add(name="Groove")
@@ -545,7 +545,7 @@ def test_an_active_shape_key_is_cut_where_it_is_shown():
 
 
 @pytest.mark.parametrize("scale", [(1, 1, 2), (-1, 1, 1), (-1, -1, -1)])
-def test_an_uneven_or_mirrored_scale_is_warned_of(scale, last, capfd):
+def test_an_uneven_or_negative_scale_causes_a_warning(scale, last, capfd):
     obj = start()
     obj.scale = scale
     bpy.context.view_layer.update()
@@ -554,7 +554,7 @@ def test_an_uneven_or_mirrored_scale_is_warned_of(scale, last, capfd):
     assert f"Warning: {last.message}" in capfd.readouterr().out
 
 
-def test_an_even_scale_is_not_warned_of(last):
+def test_an_even_scale_causes_no_warning(last):
     obj = start()
     obj.scale = (3, 3, 3)
     bpy.context.view_layer.update()
@@ -564,7 +564,7 @@ def test_an_even_scale_is_not_warned_of(last):
 
 @pytest.mark.parametrize("settings", [{}, REFINED])
 @pytest.mark.parametrize("mode", ["EDGE", "FACE"])
-def test_x_mirror_does_the_other_side_too(mode, settings, last):
+def test_x_mirror_also_moves_the_other_side(mode, settings, last):
     obj = dumbbell()
     obj.data.use_mirror_x = True
     edit(obj, mode=mode)
@@ -580,7 +580,7 @@ def test_x_mirror_does_the_other_side_too(mode, settings, last):
     bm = bm_of(obj)
     seams = [edge for edge in bm.edges if edge.seam]
     if not settings:
-        assert flagged(obj, "seam") == edge_set(ring(5)) | edge_set(ring(15))
+        assert marked_edges(obj, "seam") == edge_set(ring(5)) | edge_set(ring(15))
     assert sum(edge.verts[0].co.x > 0 for edge in seams) == sum(edge.verts[0].co.x < 0 for edge in seams)
     if mode == "FACE":
         heights = [face.calc_center_median().x for face in bm.faces if face.select]
@@ -588,7 +588,7 @@ def test_x_mirror_does_the_other_side_too(mode, settings, last):
         assert min(map(abs, heights)) > 0.7
 
 
-def test_x_mirror_of_what_is_not_symmetric(last):
+def test_x_mirror_on_an_asymmetric_mesh(last):
     obj = start()
     obj.data.use_mirror_x = True
     bm = bm_of(obj)
@@ -596,12 +596,12 @@ def test_x_mirror_of_what_is_not_symmetric(last):
         vertex.co.x += 0.1
     bmesh.update_edit_mesh(obj.data)
     run(output="SEAM")
-    assert flagged(obj, "seam") == GROOVE_EDGES
+    assert marked_edges(obj, "seam") == GROOVE_EDGES
     assert "X Mirror is on" in last.message
 
 
 @pytest.mark.parametrize("inward", [False, True])
-def test_a_closed_mesh_inside_out_is_warned_of(inward, last):
+def test_inverted_normals_of_a_closed_mesh_cause_a_warning(inward, last):
     obj = torus()
     edit(obj)
     if inward:
@@ -613,7 +613,7 @@ def test_a_closed_mesh_inside_out_is_warned_of(inward, last):
     assert ("Recalculate Outside (Shift N)" in last.message) == inward
 
 
-def test_an_open_mesh_has_no_inside(last):
+def test_an_open_mesh_causes_no_warning_about_normals(last):
     obj = start()
     bm = bm_of(obj)
     bmesh.ops.reverse_faces(bm, faces=bm.faces)
@@ -640,22 +640,22 @@ def test_undo_and_redo_of_cuts(output, normals, mode):
     else:
         select(obj, pairs(START))
     bpy.ops.ed.undo_push(message="prepared")
-    before = everything(cylinder())
+    before = mesh_state(cylinder())
     assert bpy.ops.mesh.optimize_contour("EXEC_DEFAULT", True, output=output, **REFINED) == {"FINISHED"}
-    after = everything(cylinder())
+    after = mesh_state(cylinder())
     assert after != before
     bpy.ops.ed.undo()
-    assert everything(cylinder()) == before
+    assert mesh_state(cylinder()) == before
     bpy.ops.ed.redo()
-    assert everything(cylinder()) == after
+    assert mesh_state(cylinder()) == after
 
 
-def test_the_same_again_gives_the_same():
+def test_a_second_run_gives_the_same_result():
     found = []
     for _ in range(2):
         obj = start(tilted_cylinder)
         run(output="CUT", **REFINED)
-        found.append(everything(obj))
+        found.append(mesh_state(obj))
         bpy.ops.object.mode_set(mode="OBJECT")
         bpy.data.objects.remove(obj)
     assert found[0] == found[1]

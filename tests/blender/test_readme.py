@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The documents' examples for scripts and the README's first contour, in this Blender, with the files they name."""
+"""Runs the documents' example scripts and the README's first contour in this Blender, with the files they name."""
 
 import re
 from pathlib import Path
@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def run_example(page):
-    """The names that the page's only script for Blender leaves."""
+    """Run the only Blender script of a page and return its variables."""
     (code,) = re.findall(r"```python\n(import bpy\n.*?)```", (ROOT / page).read_text(encoding="utf-8"), re.DOTALL)
     names = {}
     exec(compile(code, page, "exec"), names)  # noqa: S102
@@ -43,7 +43,7 @@ def test_the_example_for_scripts_moves_the_seams():
     assert seams() == {frozenset(side) for side in np.concatenate(sides).tolist()} != rough
 
 
-def test_the_manual_s_example_moves_the_borders_of_materials():
+def test_the_example_in_the_manual_moves_the_borders_of_materials():
     bpy.ops.wm.open_mainfile(filepath="blend_samples/hand_parts.blend")
     ragged, names = materials(), run_example("addon/README.md")
     assert [border.status for border in names["borders"]] == ["improved"] * 5

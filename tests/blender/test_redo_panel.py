@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The redo panels show every property of their operator, once."""
+"""The redo panels show every property of their operator exactly once."""
 
 from collections import Counter
 
@@ -19,7 +19,7 @@ FOLDS = Counter(operators.Folds.__annotations__.keys())
 
 
 class Layout:
-    """Notes what is drawn into it and into its rows."""
+    """A layout that records what is drawn into it and its rows."""
 
     def __init__(self):
         self.drawn = Counter()
@@ -42,7 +42,7 @@ class Layout:
 
 
 class Shown:
-    """Stands in for the operator: Blender makes those only itself."""
+    """Stands in for the operator, which only Blender can create."""
 
     def __init__(self, operator, unfolded=True):
         self.layout = Layout()
@@ -67,7 +67,7 @@ def test_every_property_is_shown_once(operator):
 
 
 @pytest.mark.parametrize("operator", OPERATORS[:2], ids=lambda operator: operator.__name__)
-def test_folded_the_main_settings_are_left(operator):
+def test_the_folded_panel_shows_only_the_main_settings(operator):
     bpy.ops.mesh.primitive_cube_add()
     folded, unfolded = Shown(operator, unfolded=False), Shown(operator)
     for shown in (folded, unfolded):

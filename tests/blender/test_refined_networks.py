@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Seams and region borders across faces: they are cut into the mesh, and labels and islands stay what they were."""
+"""Seams and region borders across faces are cut into the mesh, and labels and islands are preserved."""
 
 from collections import Counter
 
@@ -12,12 +12,12 @@ from made_meshes import (
     RINGS,
     SEGMENTS,
     edit,
-    everything,
-    flagged,
+    mark_edges,
+    marked_edges,
+    mesh_state,
     pairs,
     rough_loop,
     select,
-    set_flag,
 )
 from minimum_ratio_contours import api
 from minimum_ratio_contours.core import parameters
@@ -52,7 +52,7 @@ def three_labels():
 
 
 def points_and_label(obj, labels, chosen):
-    """Of some faces, the places of their corners from one on, which tell them again, and the label."""
+    """Return the corner positions and label of some faces, which identify them after a cut."""
     bm = bmesh.from_edit_mesh(obj.data)
     bm.faces.ensure_lookup_table()
     return Counter((tuple(tuple(v.co) for v in bm.faces[i].verts), int(labels[i])) for i in chosen)
@@ -82,25 +82,25 @@ def test_a_border_across_faces_is_cut_and_the_labels_follow(source, last):
     assert last.message.startswith("1 of 1 borders moved. Ratio ")
 
 
-def test_along_edges_alone_nothing_is_cut():
+def test_a_border_along_edges_cuts_nothing():
     obj = labeled_tilted()
-    before = everything(obj)
+    before = mesh_state(obj)
     assert segment(refinement=0, merge=0.3) == {"FINISHED"}
-    after = everything(obj)
+    after = mesh_state(obj)
     assert [after[kind] for kind in ("vertices", "edges")] == [before[kind] for kind in ("vertices", "edges")]
 
 
 def test_undo_and_redo_of_a_segmentation():
     labeled_tilted(three_labels())
     bpy.ops.ed.undo_push(message="prepared")
-    before = everything(bpy.data.objects["Cylinder"])
+    before = mesh_state(bpy.data.objects["Cylinder"])
     assert bpy.ops.mesh.optimize_segmentation("EXEC_DEFAULT", True, source="MATERIAL", **REFINED) == {"FINISHED"}
-    after = everything(bpy.data.objects["Cylinder"])
+    after = mesh_state(bpy.data.objects["Cylinder"])
     assert len(after["faces"]) > len(before["faces"])
     bpy.ops.ed.undo()
-    assert everything(bpy.data.objects["Cylinder"]) == before
+    assert mesh_state(bpy.data.objects["Cylinder"]) == before
     bpy.ops.ed.redo()
-    assert everything(bpy.data.objects["Cylinder"]) == after
+    assert mesh_state(bpy.data.objects["Cylinder"]) == after
 
 
 @pytest.mark.parametrize("source", SOURCES)
@@ -122,18 +122,18 @@ def test_faces_that_no_border_crosses_stay_as_they_are(source):
 
 
 def touched(obj, results):
-    """The faces that contours cross, or get a corner from where one only touches their side."""
+    """Return the faces that contours cross, or whose side they touch, which adds a corner."""
     edges = {tuple(pair) for result in results for pair in np.sort(result.edge_vertices).tolist()}
     crossed = [face for result in results for face in result.segment_faces]
     return sorted({*crossed, *(face.index for face in obj.data.polygons if edges & set(face.edge_keys))})
 
 
-def test_the_same_twice():
+def test_two_runs_give_the_same_result():
     found = []
     for _ in range(2):
         obj = labeled_tilted(three_labels())
         segment()
-        found.append(everything(obj))
+        found.append(mesh_state(obj))
     assert found[0] == found[1]
 
 
@@ -147,11 +147,11 @@ def test_scripts_in_object_mode_get_the_same_as_in_edit_mode(source):
         results = api.optimize_segmentation(obj, apply=True, merge=0.1, **where(source), **REFINED)
         assert any((result.vertices < 0).any() for result in results)
         bpy.ops.object.mode_set(mode="EDIT")
-        found.append(everything(obj))
+        found.append(mesh_state(obj))
     assert found[0] == found[1]
 
 
-def test_shape_keys_outlive_a_cut_in_object_mode():
+def test_shape_keys_survive_a_cut_in_object_mode():
     obj = tilted_cylinder()
     set_labels(obj, "MATERIAL", ragged(GROOVE - 2))
     obj.shape_key_add(name="Basis")
@@ -166,7 +166,7 @@ def test_shape_keys_outlive_a_cut_in_object_mode():
 
 
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
-def test_custom_normals_outlive_a_cut(mode):
+def test_custom_normals_survive_a_cut(mode):
     obj = with_custom_normals(tilted_cylinder)
     set_labels(obj, "MATERIAL", ragged(GROOVE - 2))
     edit(obj)
@@ -195,19 +195,19 @@ def test_across_faces_the_mean_ratio_is_not_above_that_along_edges():
 
 
 def new_vertices(obj, before):
-    """The vertices that were not there before a cut."""
+    """Return the vertices that a cut has added."""
     known = {place for place, *_ in before["vertices"]}
     return [vertex for vertex in bmesh.from_edit_mesh(obj.data).verts if tuple(vertex.co) not in known]
 
 
 def divides(vertex, label):
-    """Whether a vertex lies between regions, or where the mesh shown ends and a border may run along it."""
+    """Whether a vertex lies between regions or on the border of the visible mesh, where a contour may run."""
     ends = vertex.is_boundary or any(face.hide for face in vertex.link_faces)
     return ends or len(set(map(label, vertex.link_faces))) > 1
 
 
 @pytest.mark.parametrize("seed", range(40))
-def test_no_label_is_lost_and_no_region_torn(seed):
+def test_no_label_is_lost_and_no_region_is_split(seed):
     rng = np.random.default_rng(seed)
     obj = any_body(rng)
     source = SOURCES[seed % 3]
@@ -217,18 +217,18 @@ def test_no_label_is_lost_and_no_region_torn(seed):
     if seed % 4 == 3:
         hide_some(rng, obj)
     select(obj, [])
-    before, regions = everything(obj), pieces(obj, labels)
+    before, regions = mesh_state(obj), pieces(obj, labels)
     hidden = [i for i, face in enumerate(bmesh.from_edit_mesh(obj.data).faces) if face.hide]
     held = points_and_label(obj, labels, hidden)
     settings = {"width": int(rng.integers(1, 6)), "merge": float(rng.choice([0, 0.1, 0.5]))}
     settings = REFINED | settings | {"refinement": int(rng.integers(1, 4))}
     results = api.optimize_segmentation(obj, **where(source), **settings)
     ran = segment(source, **settings)
-    after, new = everything(obj), get_labels(obj, source)
+    after, new = mesh_state(obj), get_labels(obj, source)
     assert (after != before) == (ran == {"FINISHED"})
     assert pieces(obj, new) == regions
     divided = {tuple(v.co) for v in bmesh.from_edit_mesh(obj.data).verts if divides(v, lambda face: new[face.index])}
-    for result in results:  # what counts as moved lies between regions now
+    for result in results:  # contours that count as moved lie between regions now
         assert {before["vertices"][vertex][0] for vertex in result.vertices[result.vertices >= 0]} <= divided
     assert {tuple(vertex.co) for vertex in new_vertices(obj, before)} <= divided  # nothing else is cut
     faces = bmesh.from_edit_mesh(obj.data).faces
@@ -237,21 +237,21 @@ def test_no_label_is_lost_and_no_region_torn(seed):
 
 
 @pytest.mark.parametrize("seed", range(40))
-def test_islands_keep_their_number(seed):
+def test_the_number_of_islands_is_preserved(seed):
     rng = np.random.default_rng(seed)
     obj = any_body(rng)
     edit(obj)
     if seed % 4 == 3:
         hide_some(rng, obj)
-    set_flag(obj, random_seams(rng, obj), "seam")
+    mark_edges(obj, random_seams(rng, obj), "seam")
     chosen = bool(seed % 2)
     if chosen:
-        shown = {frozenset(state[:2]) for state in everything(obj)["edges"] if not state[3]}
-        select(obj, [pair for pair in sorted(map(sorted, flagged(obj, "seam") & shown)) if rng.random() < 0.9])
-    before, count = everything(obj), islands(obj)
+        shown = {frozenset(state[:2]) for state in mesh_state(obj)["edges"] if not state[3]}
+        select(obj, [pair for pair in sorted(map(sorted, marked_edges(obj, "seam") & shown)) if rng.random() < 0.9])
+    before, count = mesh_state(obj), islands(obj)
     settings = {"width": int(rng.integers(1, 6)), "merge": float(rng.choice([0, 0.1, 0.5])), "selected_only": chosen}
     ran = bpy.ops.mesh.optimize_seams(**(REFINED | settings))
-    assert (everything(obj) != before) == (ran == {"FINISHED"})
+    assert (mesh_state(obj) != before) == (ran == {"FINISHED"})
     assert islands(obj) == count
     assert all(any(edge.seam for edge in vertex.link_edges) for vertex in new_vertices(obj, before))
     assert is_valid(obj)
@@ -263,7 +263,7 @@ def test_islands_keep_their_number(seed):
 def tilted_seam():
     obj = tilted_cylinder()
     edit(obj)
-    set_flag(obj, pairs(rough_loop(GROOVE - 3)), "seam")
+    mark_edges(obj, pairs(rough_loop(GROOVE - 3)), "seam")
     return obj
 
 
@@ -296,15 +296,15 @@ def test_scripts_cut_seams(mode):
     assert distances.min(axis=1).max() < 1e-5
 
 
-def test_a_search_alone_leaves_the_mesh_as_it_is():
+def test_a_search_without_apply_does_not_change_the_mesh():
     obj = tilted_seam()
-    before = everything(obj)
+    before = mesh_state(obj)
     api.optimize_seams(obj, **REFINED)
-    assert everything(obj) == before
+    assert mesh_state(obj) == before
     assert [mesh.name for mesh in bpy.data.meshes] == [obj.data.name]
 
 
-def test_the_panel_has_what_optimize_contour_has():
+def test_the_panel_has_the_settings_of_optimize_contour():
     for operator in (bpy.ops.mesh.optimize_seams, bpy.ops.mesh.optimize_segmentation):
         properties = operator.get_rna_type().properties
         for name in ("refinement", "regular_iterations"):

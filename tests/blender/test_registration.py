@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What enabling the add-on brings, and that disabling it takes all of it away."""
+"""Enabling the add-on registers everything, and disabling it removes everything."""
 
 import inspect
 
@@ -22,25 +22,25 @@ MENUS = (
 
 
 def entries(menu):
-    """The add-on's functions that draw into one of Blender's menus."""
+    """Return the add-on's functions that draw into one of Blender's menus."""
     functions = getattr(bpy.types, menu)._dyn_ui_initialize()
     return [function for function in functions if function.__module__.startswith(MODULE)]
 
 
 def classes():
-    """The add-on's registered classes, by name."""
+    """Return the names of the add-on's registered classes."""
     found = [getattr(bpy.types, name) for name in dir(bpy.types)]
     return {cls.__name__ for cls in found if getattr(cls, "__module__", "").startswith(MODULE)}
 
 
 def traces():
-    """Whether classes, menu entries and the window manager's property are there."""
+    """Return whether classes, menu entries and the window manager's property exist."""
     return [bool(classes()), *(bool(entries(menu)) for menu in MENUS)] + [
         hasattr(bpy.types.WindowManager, "minimum_ratio_contours")
     ]
 
 
-def test_disabling_leaves_nothing_and_enabling_brings_it_back():
+def test_disabling_removes_everything_and_enabling_restores_it():
     before = classes(), [len(entries(menu)) for menu in MENUS]
     assert all(traces())
     addon_utils.disable(MODULE)
@@ -54,7 +54,7 @@ def test_disabling_leaves_nothing_and_enabling_brings_it_back():
 
 
 def test_operators_say_what_they_do_and_their_labels_fit_a_sidebar():
-    """Blender ends tooltips with a full stop itself; a sidebar of the usual width shows some 20 letters of a name."""
+    """Blender itself adds the final period of a tooltip; a sidebar of the default width shows about 20 letters."""
     for name in classes():
         cls = getattr(bpy.types, name)
         if not issubclass(cls, (bpy.types.Operator, bpy.types.Panel, bpy.types.Menu)):
@@ -68,7 +68,7 @@ def test_operators_say_what_they_do_and_their_labels_fit_a_sidebar():
 
 
 def settings():
-    """The operator's properties, asked for anew: registering again replaces them."""
+    """Return the operator's current properties, which registering again replaces."""
     return bpy.ops.mesh.optimize_contour.get_rna_type().properties[1:]
 
 

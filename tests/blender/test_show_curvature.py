@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""mesh.show_curvature: attributes and colors of the least curvature, in Edit Mode."""
+"""mesh.show_curvature: attributes and colors of the least principal curvature, in Edit Mode."""
 
 import bmesh
 import bpy
 import numpy as np
 import pytest
-from made_meshes import GROOVE, SEGMENTS, edit, everything, grooved_cylinder, mesh_object, ring
+from made_meshes import GROOVE, SEGMENTS, edit, grooved_cylinder, mesh_object, mesh_state, ring
 from minimum_ratio_contours import api
 from minimum_ratio_contours.ui import show_curvature
 
@@ -15,7 +15,7 @@ def run(**properties):
 
 
 def shown(obj):
-    """Values and colors of all vertices, as Object Mode has them."""
+    """Return the values and colors of all vertices, read in Object Mode."""
     bpy.ops.object.mode_set(mode="OBJECT")
     mesh = obj.data
     values = np.empty(len(mesh.vertices))
@@ -30,7 +30,7 @@ def test_the_groove_is_blue_and_the_values_are_the_native_ones(capfd):
     edit(obj)
     assert run() == {"FINISHED"}
     assert obj.data.color_attributes.active_color.name == show_curvature.COLORS
-    assert "'kappa_min', in 1 / length, and 'Curvature'" in capfd.readouterr().out
+    assert "'kappa_min' (1 / length) and 'Curvature'" in capfd.readouterr().out
     values, colors = shown(obj)
     native = np.asarray(api.curvature(obj).kappa_min)
     np.testing.assert_allclose(values, native, rtol=1e-6, atol=1e-6)
@@ -40,19 +40,19 @@ def test_the_groove_is_blue_and_the_values_are_the_native_ones(capfd):
     assert (colors[:, 3] == 1).all()
 
 
-def test_again_writes_into_the_same_attributes_and_nothing_else_changes():
+def test_a_second_run_writes_the_same_attributes_and_nothing_else_changes():
     obj = grooved_cylinder()
     edit(obj)
-    before = everything(obj)
+    before = mesh_state(obj)
     run()
-    after = everything(obj)
+    after = mesh_state(obj)
     added = after["layers"].keys() - before["layers"].keys()
     assert {name for _, _, name in added} == {show_curvature.VALUES, show_curvature.COLORS}
     for key in added:
         del after["layers"][key]
     assert after == before
     run(quantile=0.2, radius=3.0)
-    assert everything(obj)["layers"].keys() == before["layers"].keys() | added
+    assert mesh_state(obj)["layers"].keys() == before["layers"].keys() | added
 
 
 def test_the_radius_averages_and_a_lower_quantile_gives_more_contrast():
@@ -62,36 +62,36 @@ def test_the_radius_averages_and_a_lower_quantile_gives_more_contrast():
         edit(obj)
         run(**properties)
         values, colors = shown(obj)
-        contrast.append(-colors[:, :3].sum(axis=1).mean())  # what is colored is darker than white
+        contrast.append(-colors[:, :3].sum(axis=1).mean())  # colors are darker than white
         deepest.append(values[ring(GROOVE)].min())
     assert contrast[1] > contrast[0]
     assert deepest[1] == deepest[0] < deepest[2]
 
 
-def test_several_meshes_and_what_cannot_be_shown(capfd):
+def test_meshes_without_faces_are_reported_and_the_others_are_shown(capfd):
     obj, empty = grooved_cylinder(), mesh_object("Empty", [(0, 0, 0), (1, 0, 0)], edges=[(0, 1)])
     other = grooved_cylinder("Other")
     edit(obj, other, empty)
     assert run() == {"FINISHED"}
     message = capfd.readouterr().out
-    assert "Curvature of 2 meshes is in" in message
-    assert "Not shown: Empty: there are no faces, which alone are curved" in message
+    assert "Curvature of 2 meshes written to" in message
+    assert "Not shown: Empty: it has no faces, and only faces have a curvature" in message
     for mesh in (obj.data, other.data):
         assert show_curvature.COLORS in bmesh.from_edit_mesh(mesh).verts.layers.float_color
 
 
 @pytest.mark.parametrize("name", [show_curvature.VALUES, show_curvature.COLORS])
-def test_attributes_of_the_same_name_are_left_alone(name, capfd):
+def test_attributes_of_another_type_are_left_alone(name, capfd):
     obj = grooved_cylinder()
     obj.data.attributes.new(name, "INT", "FACE").data[0].value = 7
     edit(obj)
-    before = everything(obj)
+    before = mesh_state(obj)
     assert run() == {"CANCELLED"}
-    assert f"another kind of attribute is named '{name}': rename or remove it" in capfd.readouterr().out
-    assert everything(obj) == before
+    assert f"there is an attribute of another type named '{name}': rename or remove it" in capfd.readouterr().out
+    assert mesh_state(obj) == before
 
 
-def test_undo_takes_the_attributes_away():
+def test_undo_removes_the_attributes():
     obj = grooved_cylinder()
     edit(obj)
     bpy.ops.ed.undo_push()

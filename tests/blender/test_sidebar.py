@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Presets, preferences, menus and the last result: what the user starts from and reads afterwards."""
+"""Presets, preferences, menus and the last result."""
 
 from pathlib import Path
 from types import SimpleNamespace
@@ -13,12 +13,12 @@ from made_meshes import (
     SEGMENTS,
     START,
     edit,
-    flagged,
     grooved_cylinder,
+    mark_edges,
+    marked_edges,
     pairs,
     ring,
     select,
-    set_flag,
 )
 from minimum_ratio_contours.core import parameters
 from minimum_ratio_contours.mesh import segmentation
@@ -28,7 +28,7 @@ WINDOW_ONLY = "mesh.show_curvature_directions"  # the tests of the window run it
 
 
 class Layout:
-    """Stands in for a layout and notes the operators that are drawn, as (idname, text, properties)."""
+    """Stands in for a layout and records the operators drawn, as (idname, text, properties)."""
 
     def __init__(self):
         self.drawn, self.menus = [], []
@@ -52,7 +52,7 @@ class Drawn:
 
 @pytest.fixture
 def own():
-    """The user's preferences, which are put back afterwards."""
+    """The user's preferences, which are restored afterwards."""
     found = bpy.context.preferences.addons[minimum_ratio_contours.__name__].preferences
     yield found
     bpy.ops.mesh.contour_defaults()
@@ -63,13 +63,13 @@ def remembered(operator=panels.OPERATOR):
 
 
 def ready_for_all():
-    """A mesh in Edit Mode whose selection, seams and face sets can all be optimized."""
+    """Make a mesh in Edit Mode whose selection, seams and face sets can all be optimized."""
     obj = grooved_cylinder()
     sets = obj.data.attributes.new(segmentation.FACE_SETS, "INT", "FACE")
     sets.data.foreach_set("value", [face.index >= (GROOVE - 3) * SEGMENTS for face in obj.data.polygons])
     edit(obj)
     select(obj, pairs(START))
-    set_flag(obj, pairs(START), "seam")
+    mark_edges(obj, pairs(START), "seam")
 
 
 def test_every_menu_entry_runs():
@@ -96,7 +96,7 @@ def test_every_menu_entry_runs():
     }
 
 
-def test_the_panel_says_what_was_found(last):
+def test_the_panel_shows_the_last_result(last):
     obj = grooved_cylinder()
     edit(obj)
     select(obj, pairs(START))
@@ -113,7 +113,7 @@ def test_the_panel_says_what_was_found(last):
     assert numbers.reason in last.message
 
 
-def test_nothing_concave_is_said_in_words(last):
+def test_a_flat_surface_is_reported_in_words(last):
     obj = grooved_cylinder(depth=0)
     edit(obj)
     select(obj, pairs(ring(8)))
@@ -122,7 +122,7 @@ def test_nothing_concave_is_said_in_words(last):
 
 
 def drawn(draw, settings):
-    """The names of the properties that a function draws, in a layout that only notes them."""
+    """Return the names of the properties that a function draws, using a layout that only records them."""
     layout = MagicMock()
     draw(layout, settings)
     calls = [args for name, args, _ in layout.mock_calls if name.split(".")[-1] in ("prop", "prop_search")]
@@ -131,7 +131,7 @@ def drawn(draw, settings):
 
 @pytest.mark.parametrize("source", ["NONE", "GROUP", "ATTRIBUTE", "COLOR"])
 def test_the_panels_show_every_setting_once(source):
-    """The redo panel draws an operator, the sidebar its remembered properties: a plain object has what both have."""
+    """The redo panel draws an operator, and the sidebar its last properties; a plain object stands in for both."""
     obj = grooved_cylinder()
     rna = [prop for prop in bpy.ops.mesh.optimize_contour.get_rna_type().properties[1:] if not prop.is_hidden]
     settings = SimpleNamespace(**{prop.identifier: getattr(remembered(), prop.identifier) for prop in rna})
@@ -145,7 +145,7 @@ def test_the_panels_show_every_setting_once(source):
 
 
 @pytest.mark.parametrize("name", parameters.PRESETS)
-def test_a_preset_is_what_the_next_run_from_the_panel_takes(name):
+def test_the_next_run_from_the_panel_uses_the_preset(name):
     settings = remembered()
     settings.width, settings.crease, settings.output = 33, 7.0, "SHARP"
     assert bpy.ops.mesh.contour_preset(preset=name) == {"FINISHED"}
@@ -155,7 +155,7 @@ def test_a_preset_is_what_the_next_run_from_the_panel_takes(name):
     assert presets.MESH_OT_contour_preset.description(bpy.context, type("P", (), {"preset": name}))
 
 
-def test_own_presets_are_kept_and_found_again(tmp_path, monkeypatch):
+def test_user_presets_are_saved_and_found_again(tmp_path, monkeypatch):
     monkeypatch.setattr(bpy.utils, "user_resource", lambda *_, path="", create=False: _made(tmp_path / path, create))
     settings = remembered()
     settings.width, settings.length_bias, settings.flow = 21, 0.75, "GATES"
@@ -184,7 +184,7 @@ def test_preferences_are_the_defaults_of_all_settings(own):
         assert getattr(own, name) == (pytest.approx(value) if isinstance(value, float) else value)
 
 
-def test_a_preference_takes_effect_at_once_and_scripts_do_not_feel_it(own):
+def test_a_preference_takes_effect_immediately_but_not_for_scripts(own):
     own.output, own.width = "SEAM", 13
     assert (remembered().output, remembered().width) == ("SEAM", 13)
     remembered().width = 5
@@ -194,26 +194,26 @@ def test_a_preference_takes_effect_at_once_and_scripts_do_not_feel_it(own):
     edit(obj)
     select(obj, pairs(START))
     bpy.ops.mesh.optimize_contour()
-    assert not flagged(obj, "seam")
+    assert not marked_edges(obj, "seam")
     bpy.ops.mesh.contour_defaults()
     assert (remembered().output, remembered().width) == ("SELECT", parameters.SETTINGS["width"]["default"])
 
 
 @pytest.mark.parametrize("operator", panels.NETWORK_OPERATORS)
-def test_preferences_reach_networks_too(operator, own):
+def test_preferences_apply_to_networks_too(operator, own):
     own.width, own.merge = 3, 0.25
     properties = remembered(operator)
     assert (properties.width, properties.merge) == (3, 0.25)
 
 
-def test_a_preference_leaves_the_other_settings_of_the_sidebar(own):
+def test_a_preference_does_not_change_other_settings_in_the_sidebar(own):
     remembered().width, remembered().output = 20, "RIP"
     own.anchor = 1.0
     assert (remembered().width, remembered().output, remembered().anchor) == (20, "RIP", 1.0)
 
 
-def test_the_buttons_for_networks_take_what_they_share_with_the_sidebar():
-    """All that the panels above show and the operator has."""
+def test_the_buttons_for_networks_take_the_settings_of_the_sidebar():
+    """They take every setting that the panels above show and the operator has."""
     obj = grooved_cylinder()
     edit(obj)
     layout = MagicMock()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Undo and redo give back the very same mesh; neither they nor a second run build the native surface again."""
+"""Undo and redo restore exactly the same mesh; neither they nor a second run build the native surface again."""
 
 from functools import partial
 
@@ -11,14 +11,14 @@ from made_meshes import (
     SEGMENTS,
     edge_set,
     edit,
-    everything,
-    flagged,
     grooved_cylinder,
+    mark_edges,
+    marked_edges,
+    mesh_state,
     pairs,
     ring,
     rough_loop,
     select,
-    set_flag,
 )
 from minimum_ratio_contours import api
 from minimum_ratio_contours.core import native
@@ -27,7 +27,7 @@ from minimum_ratio_contours.mesh.arrays import synchronize
 
 @pytest.fixture
 def built(monkeypatch):
-    """The native surfaces that were built."""
+    """The native surfaces that were built so far."""
     make, surfaces = native.module().Surface, []
 
     def counted(**arrays):
@@ -42,13 +42,13 @@ def prepared():
     obj = grooved_cylinder()
     edit(obj)
     loop = rough_loop(GROOVE - 3)
-    set_flag(obj, pairs(loop), "seam")
+    mark_edges(obj, pairs(loop), "seam")
     select(obj, pairs(loop))
     bpy.ops.ed.undo_push(message="prepared")
 
 
 def cylinder():
-    """Undo replaces the objects: they must be looked up again."""
+    """Look the cylinder up again, since undo replaces the objects."""
     return bpy.data.objects["Cylinder"]
 
 
@@ -60,14 +60,14 @@ def surface():
 @pytest.mark.parametrize("output", ["SELECT", "SEAM", "SHARP"])
 def test_undo_and_redo(output):
     prepared()
-    before = everything(cylinder())
+    before = mesh_state(cylinder())
     assert bpy.ops.mesh.optimize_contour("EXEC_DEFAULT", True, output=output) == {"FINISHED"}
-    after = everything(cylinder())
+    after = mesh_state(cylinder())
     assert after != before
     bpy.ops.ed.undo()
-    assert everything(cylinder()) == before
+    assert mesh_state(cylinder()) == before
     bpy.ops.ed.redo()
-    assert everything(cylinder()) == after
+    assert mesh_state(cylinder()) == after
 
 
 def test_a_second_run_after_undo_uses_the_same_surface():
@@ -77,7 +77,7 @@ def test_a_second_run_after_undo_uses_the_same_surface():
     bpy.ops.ed.undo()
     bpy.ops.mesh.optimize_contour("EXEC_DEFAULT", True, width=4)
     assert surface() is first
-    assert flagged(cylinder(), "select") == edge_set(ring(GROOVE))
+    assert marked_edges(cylinder(), "select") == edge_set(ring(GROOVE))
 
 
 def moved_vertex():
@@ -89,8 +89,8 @@ def moved_vertex():
 
 
 @pytest.mark.parametrize("operator", ["optimize_contour", "optimize_seams", "optimize_segmentation"])
-def test_redo_builds_no_surface_until_the_mesh_is_edited(operator, built):
-    """The redo panel undoes and runs again. Flags and labels that are written leave the surface as it is."""
+def test_redo_builds_no_surface_unless_the_mesh_was_edited(operator, built):
+    """The redo panel undoes and runs again. Writing marks and labels does not change the surface."""
     obj = grooved_cylinder()
     for name in ("One", "Two"):
         obj.data.materials.append(bpy.data.materials.new(name))
@@ -99,7 +99,7 @@ def test_redo_builds_no_surface_until_the_mesh_is_edited(operator, built):
     )
     edit(obj)
     loop = rough_loop(GROOVE - 3)
-    set_flag(obj, pairs(loop), "seam")
+    mark_edges(obj, pairs(loop), "seam")
     select(obj, pairs(loop))
     bpy.ops.ed.undo_push(message="prepared")
     run = partial(getattr(bpy.ops.mesh, operator), "EXEC_DEFAULT", True)
@@ -107,12 +107,12 @@ def test_redo_builds_no_surface_until_the_mesh_is_edited(operator, built):
     for expected, edited in ((1, None), (2, moved_vertex)):
         if edited:
             edited()
-        before = everything(cylinder())
+        before = mesh_state(cylinder())
         for width in (2, 3, 5):
             assert run(width=width, iterations=8, **source) == {"FINISHED"}
             assert len(built) == expected
             bpy.ops.ed.undo()
-            assert everything(cylinder()) == before
+            assert mesh_state(cylinder()) == before
 
 
 def test_a_moved_vertex_or_a_hidden_face_makes_a_new_surface():
@@ -126,7 +126,7 @@ def test_a_moved_vertex_or_a_hidden_face_makes_a_new_surface():
     assert surface() not in (first, second)
 
 
-def test_several_objects_keep_their_surfaces_and_no_others_are_kept(built):
+def test_the_surfaces_of_several_objects_are_cached_and_no_others(built):
     objects = [grooved_cylinder("First"), grooved_cylinder("Second")]
     edit(*objects)
     for obj in objects:

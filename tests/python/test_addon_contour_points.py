@@ -78,10 +78,10 @@ def test_contours_that_end_in_one_vertex_do_not_keep_points_from_it():
     assert merged(one, two, closed=False) == [[(8, 8, 0.0), *FAR], [(8, 8, 0.0), (5, 6, 0.5), (6, 7, 0.5)]]
 
 
-def test_a_guarded_vertex_is_met_only_where_the_contour_met_it_before():
+def test_a_protected_vertex_is_touched_only_by_contours_that_touched_it_before():
     off, on = contour((8, 9, 0.1), *FAR), contour((8, 8, 0.0), (8, 9, 0.1), *FAR)
     for given, expected in ((off, places(off)), (on, [(8, 8, 0.0), *FAR])):
-        (result,) = contour_points.merge_points([given], [True], 0.3, guarded={8})
+        (result,) = contour_points.merge_points([given], [True], 0.3, protected={8})
         assert places(result) == expected
 
 
@@ -100,7 +100,7 @@ def test_repeated_points_are_dropped():
     assert merged(contour(*FAR, FAR[2]), closed=False) == [FAR]
 
 
-def test_no_point_stays_on_an_edge_to_be_kept_whole():
+def test_no_point_stays_on_an_unsplittable_edge():
     """It goes to the end that the contour passes next to, even where the other end is nearer."""
     near, far = contour((8, 8, 0.0), (8, 9, 0.9), *FAR), contour((8, 9, 0.9), *FAR)
     for given, vertex in ((near, 8), (far, 9)):

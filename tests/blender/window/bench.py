@@ -30,20 +30,20 @@ STEPS = ["WIDER", "SHORTER", "NARROWER", "LONGER"] * 25
 
 
 def begin(obj):
-    """What the operator does before its first frame."""
+    """Do what the operator does before its first frame."""
     task = contour_tasks.read_task(obj, False)
     arrays, surface = api.arrays_and_surface_of(obj)
     return preview.Preview(arrays, surface, task.sound())
 
 
 def step(shown, state):
-    """What the operator does at every change, to the arrays on the graphics card."""
+    """Do what the operator does at every change, up to the arrays on the GPU."""
     shown.search(state)
     overlay._Batches(shown.shapes(state))
 
 
 class TimedModule:
-    """The native module, with the time that its calls take."""
+    """Wraps the native module and measures the time of its calls."""
 
     def __init__(self, module):
         self._module, self.taken = module, 0.0
@@ -86,7 +86,7 @@ def measure_steps(shown, timed, refinement):
 
 
 def run():
-    """Exceptions in timers leave Blender running: end by hand."""
+    """Run one step, and exit explicitly: exceptions in timers leave Blender running."""
     status = 1
     try:
         measure()

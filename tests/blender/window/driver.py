@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A window of Blender's as a user has it before him: mouse, keys and what is on the screen."""
+"""Drives a Blender window as a user does: with mouse and keys, reading the screen."""
 
 import bpy
 import numpy as np
@@ -7,9 +7,9 @@ from bpy_extras.view3d_utils import location_3d_to_region_2d
 from mathutils import Vector
 
 PAUSE = 0.02  # seconds between the steps of a scenario
-_DRAWN = 3  # steps until what an event changed is on the screen
+_DRAWN = 3  # steps until the screen shows the effect of an event
 _ROW = 14  # pixels, less than a row of buttons
-_OPENED = 12  # steps until a popup is there, or the HUD
+_OPENED = 12  # steps until a popup or the redo panel is open
 _DIGITS = ("ZERO", "ONE", "TWO", "THREE", "FOUR", "FIVE", "SIX", "SEVEN", "EIGHT", "NINE")
 
 
@@ -23,7 +23,7 @@ class Window:
         self.mouse = self.region.x + 20, self.region.y + 20
 
     def fresh(self):
-        """An empty scene with Blender's own settings, seen from the front and a little above."""
+        """Open an empty scene with Blender's default settings, seen from the front and slightly above."""
         if bpy.context.mode != "OBJECT":
             bpy.ops.object.mode_set(mode="OBJECT")
         bpy.data.batch_remove([*bpy.data.objects, *bpy.data.meshes])
@@ -42,7 +42,7 @@ class Window:
         return bpy.context.temp_override(window=self.window, area=self.area, region=self.region)
 
     def operator(self, name, **settings):
-        """Starts a mesh operator as the menu does."""
+        """Start a mesh operator as a menu does."""
         with self.context():
             return getattr(bpy.ops.mesh, name)("INVOKE_DEFAULT", True, **settings)
 
@@ -51,7 +51,7 @@ class Window:
             yield
 
     def move(self, x, y):
-        """Moves the mouse to a place of the view, in pixels."""
+        """Move the mouse to a position in the viewport, in pixels."""
         self.mouse = self.region.x + int(x), self.region.y + int(y)
         self._event("MOUSEMOVE", "NOTHING")
         yield from self.wait()
@@ -64,13 +64,13 @@ class Window:
             yield from self.wait()
 
     def turn(self, key, times):
-        """Many events at once, as they pile up while Blender is busy."""
+        """Send many events at once, as they queue up while Blender is busy."""
         for _ in range(times):
             self._event(key, "PRESS")
         yield from self.wait()
 
     def move_over(self, x, y):
-        """Moves the mouse to a place of the window, in pixels."""
+        """Move the mouse to a position in the window, in pixels."""
         self.mouse = int(x), int(y)
         self._event("MOUSEMOVE", "NOTHING")
         yield
@@ -85,7 +85,7 @@ class Window:
         yield from self.wait()
 
     def copied(self):
-        """What Blender copies of the button under the mouse: an operator's command, or a value."""
+        """Return what Blender copies from the button under the mouse: an operator's command, or a value."""
         manager = bpy.context.window_manager
         manager.clipboard = ""
         self._event("C", "PRESS", ctrl=True)
@@ -97,7 +97,7 @@ class Window:
         return next(region for region in self.area.regions if region.type == kind)
 
     def find(self, kind, text, share=0.7):
-        """Moves the mouse down a region until it is over a button with this command or value; gives its height."""
+        """Move the mouse down a region until it is over a button with this command or value; return its height."""
         region = self.region_of(kind)
         for y in range(region.y + region.height - _ROW, region.y, -_ROW):
             self.mouse = int(region.x + share * region.width), y
@@ -108,18 +108,18 @@ class Window:
         raise AssertionError(f"no button with {text} in the region {kind}")
 
     def push(self, kind, text, share=0.7):
-        """Clicks on the button with this command."""
+        """Click the button with this command."""
         yield from self.find(kind, text, share)
         yield from self.press("LEFTMOUSE")
         yield from self.rest()
 
     def rest(self):
-        """Until what opens by itself is open."""
+        """Wait until a popup or panel has opened."""
         for _ in range(_OPENED):
             yield
 
     def choose(self, text, among=12):
-        """Picks the entry with this command from the end of the menu that is open."""
+        """Pick the entry with this command from the open menu, searching from its end."""
         yield from self.rest()
         yield from self.press("END")
         for _ in range(among):
@@ -131,7 +131,7 @@ class Window:
         raise AssertionError(f"no entry with {text} at the end of the menu")
 
     def open_sidebar(self):
-        """With the tab of the add-on, which is the last one."""
+        """Open the sidebar at the add-on's tab, which is the last one."""
         self.area.spaces.active.show_region_ui = True
         yield from self.rest()
         region = self.region_of("UI")
@@ -148,13 +148,13 @@ class Window:
         yield from self.wait()
 
     def click(self, obj, vertex):
-        """Clicks on a vertex."""
+        """Click on a vertex."""
         place = obj.matrix_world @ obj.data.vertices[vertex].co
         yield from self.move(*location_3d_to_region_2d(self.region, self.view, place))
         yield from self.press("LEFTMOUSE")
 
     def picture(self, name):
-        """The pixels of the window, which are also kept as a picture."""
+        """Return the pixels of the window, and save them as a picture."""
         path = str(self.pictures / f"{name}.png")
         with self.context():
             bpy.ops.screen.screenshot(filepath=path)
@@ -166,7 +166,7 @@ class Window:
         return pixels.reshape(shape)
 
     def upper(self, pixels):
-        """Those of a picture that show the upper part of the view, where no message of Blender's lies over it."""
+        """Return the pixels of the upper part of the viewport, which Blender's messages do not cover."""
         bottom = self.region.y + 2 * self.region.height // 5
         return pixels[bottom : self.region.y + self.region.height, self.region.x : self.region.x + self.region.width]
 

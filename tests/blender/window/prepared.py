@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the scenarios start from."""
+"""The mesh and selection that the scenarios start from."""
 
 import bpy
 from made_meshes import GROOVE, SEGMENTS, edit, grooved_cylinder, pairs, rough_loop, select
@@ -10,7 +10,7 @@ FRONT = 3 * SEGMENTS // 4  # the column that faces the view
 
 
 def cylinder(matrix=None):
-    """In Edit Mode with a rough loop selected that the groove lies a few rings above."""
+    """Make a cylinder in Edit Mode with a rough loop selected a few rings below the groove."""
     obj = grooved_cylinder()
     obj.matrix_world = matrix or Matrix()
     edit(obj)
@@ -20,5 +20,5 @@ def cylinder(matrix=None):
 
 
 def now():
-    """Undo replaces the objects: they must be looked up again."""
+    """Look the cylinder up again, since undo replaces the objects."""
     return bpy.data.objects["Cylinder"]

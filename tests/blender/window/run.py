@@ -20,7 +20,7 @@ import addon_module  # noqa: E402
 
 addon_module.enable()
 bpy.context.preferences.view.show_splash = False
-bpy.context.preferences.system.viewport_aa = "OFF"  # its samples add up while nothing moves
+bpy.context.preferences.system.viewport_aa = "OFF"  # otherwise the picture changes while samples accumulate
 
 import scenarios  # noqa: E402
 import scenarios_curvature  # noqa: E402
@@ -40,7 +40,7 @@ def run_all(pictures, word):
                 yield from window.fresh()
                 yield from scenario(window)
                 print("passed", flush=True)
-            except Exception:  # the others shall still be run
+            except Exception:  # run the other scenarios all the same
                 traceback.print_exc()
                 print("FAILED", flush=True)
                 failed.append(name)
@@ -48,7 +48,7 @@ def run_all(pictures, word):
 
 
 def step():
-    """Exceptions in timers leave Blender running: end by hand."""
+    """Run one step, and exit explicitly: exceptions in timers leave Blender running."""
     try:
         next(running)
     except StopIteration:

@@ -4,11 +4,11 @@
 import bmesh
 import bpy
 import numpy as np
-from made_meshes import GROOVE, edge_set, everything, flagged, ring
+from made_meshes import GROOVE, edge_set, marked_edges, mesh_state, ring
 from minimum_ratio_contours.ui import show_directions
 from prepared import cylinder, now
 
-RESTED = 30  # steps until the lines are made anew
+RESTED = 30  # steps until the lines are computed again
 
 
 def turned_on(window):
@@ -27,15 +27,15 @@ def rested(window):
 
 
 def moved(step):
-    """Moves the top rows of the cylinder sideways."""
+    """Move the top rows of the cylinder sideways."""
     bm = bmesh.from_edit_mesh(now().data)
     for vertex in bm.verts:
         vertex.co.x += step * (vertex.co.z > 0.2 * GROOVE - 0.1)
     bmesh.update_edit_mesh(now().data)
 
 
-def test_a_button_shows_directions_and_takes_them_away(window):
-    before = everything(cylinder())
+def test_a_button_shows_and_hides_directions(window):
+    before = mesh_state(cylinder())
     yield from window.open_sidebar()
     yield from window.move(20, 20)
     untouched = yield from drawn(window, "directions-off")
@@ -45,10 +45,10 @@ def test_a_button_shows_directions_and_takes_them_away(window):
     yield from window.push("UI", "mesh.show_curvature_directions()")
     yield from window.move(20, 20)
     assert np.array_equal((yield from drawn(window, "directions-off-again")), untouched)
-    assert everything(now()) == before
+    assert mesh_state(now()) == before
 
 
-def test_over_the_colors_and_beside_an_optimized_contour(window):
+def test_directions_are_drawn_over_colors_and_next_to_an_optimized_contour(window):
     cylinder()
     yield from window.open_sidebar()
     yield from turned_on(window)
@@ -56,13 +56,13 @@ def test_over_the_colors_and_beside_an_optimized_contour(window):
     yield from window.push("UI", "mesh.optimize_contour()")
     yield from rested(window)
     window.picture("directions-colors")
-    assert flagged(now(), "select") == edge_set(ring(GROOVE))
+    assert marked_edges(now(), "select") == edge_set(ring(GROOVE))
     assert show_directions.is_shown()
     bpy.ops.mesh.show_curvature_directions()
     window.area.spaces.active.shading.color_type = "MATERIAL"
 
 
-def test_they_follow_the_mesh(window):
+def test_directions_follow_the_mesh(window):
     cylinder()
     yield from turned_on(window)
     with_lines = yield from drawn(window, "directions-before")
@@ -74,11 +74,11 @@ def test_they_follow_the_mesh(window):
     yield
     yield from rested(window)
     back = yield from drawn(window, "directions-back")
-    assert np.abs(back - with_lines).max(axis=2).mean() < 1e-3  # positions are single
+    assert np.abs(back - with_lines).max(axis=2).mean() < 1e-3  # positions are single-precision
     bpy.ops.mesh.show_curvature_directions()
 
 
-def test_undo_moves_them_back(window):
+def test_undo_moves_directions_back(window):
     cylinder()
     yield from turned_on(window)
     with_lines = yield from drawn(window, "directions-before")
@@ -91,7 +91,7 @@ def test_undo_moves_them_back(window):
     bpy.ops.mesh.show_curvature_directions()
 
 
-def test_they_leave_with_edit_mode(window):
+def test_leaving_edit_mode_removes_directions(window):
     cylinder()
     yield from turned_on(window)
     yield from window.press("TAB")
@@ -99,7 +99,7 @@ def test_they_leave_with_edit_mode(window):
     assert not show_directions.is_shown()
 
 
-def test_they_leave_with_the_add_on(window):
+def test_disabling_the_add_on_removes_directions(window):
     cylinder()
     yield from turned_on(window)
     show_directions.unregister()
@@ -110,7 +110,7 @@ def test_they_leave_with_the_add_on(window):
     yield from window.wait()
 
 
-def test_nothing_concave_is_said_and_nothing_shown(window):
+def test_without_concavity_a_message_is_shown_and_no_directions(window):
     obj = cylinder()
     bm = bmesh.from_edit_mesh(obj.data)
     for vertex in bm.verts:

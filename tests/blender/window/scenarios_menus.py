@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a user finds in Blender's menus and by F3, by keys and clicks."""
+"""The entries in Blender's menus and in the search (F3), used by keys and clicks."""
 
 import bpy
-from made_meshes import GROOVE, SEGMENTS, edge_set, edit, flagged, grooved_cylinder, pairs, ring, set_flag
+from made_meshes import GROOVE, SEGMENTS, edge_set, edit, grooved_cylinder, mark_edges, marked_edges, pairs, ring
 from minimum_ratio_contours.mesh import segmentation
 from prepared import LOOP, cylinder, now
 
@@ -12,7 +12,7 @@ def message():
 
 
 def opened(window, key, **modifiers):
-    """A menu in the middle of the view."""
+    """Open a menu in the middle of the viewport."""
     yield from window.move(500, 400)
     yield from window.press(key, **modifiers)
     yield from window.rest()
@@ -23,10 +23,10 @@ def test_the_edge_menu(window):
     yield from opened(window, "E", ctrl=True)
     window.picture("menu-edge")
     yield from window.choose("mesh.optimize_contour()")
-    assert flagged(now(), "select") == edge_set(ring(GROOVE))
+    assert marked_edges(now(), "select") == edge_set(ring(GROOVE))
 
 
-def test_the_edge_menus_own_menu_marks_a_seam_at_once(window):
+def test_the_submenu_of_the_edge_menu_marks_a_seam(window):
     cylinder()
     yield from opened(window, "E", ctrl=True)
     yield from window.press("END")
@@ -34,17 +34,17 @@ def test_the_edge_menus_own_menu_marks_a_seam_at_once(window):
     yield from window.rest()
     window.picture("menu-outputs")
     yield from window.choose("output='SEAM'")
-    assert flagged(now(), "seam") == edge_set(ring(GROOVE))
+    assert marked_edges(now(), "seam") == edge_set(ring(GROOVE))
 
 
-def test_the_edge_menu_starts_the_live_one(window):
+def test_the_edge_menu_starts_adjust_contour(window):
     cylinder()
     yield from opened(window, "E", ctrl=True)
     yield from window.choose("mesh.adjust_contour()")
     window.picture("menu-adjust")
-    assert flagged(now(), "select") == edge_set(LOOP)  # nothing has been applied yet
+    assert marked_edges(now(), "select") == edge_set(LOOP)  # nothing has been applied yet
     yield from window.press("RET")
-    assert flagged(now(), "select") == edge_set(ring(GROOVE))
+    assert marked_edges(now(), "select") == edge_set(ring(GROOVE))
 
 
 def test_the_context_menu(window):
@@ -52,19 +52,19 @@ def test_the_context_menu(window):
     yield from opened(window, "RIGHTMOUSE")
     window.picture("menu-context")
     yield from window.choose("mesh.optimize_contour()")
-    assert flagged(now(), "select") == edge_set(ring(GROOVE))
+    assert marked_edges(now(), "select") == edge_set(ring(GROOVE))
 
 
 def test_the_uv_menu_moves_all_seams(window):
-    set_flag(cylinder(), pairs(LOOP), "seam")
+    mark_edges(cylinder(), pairs(LOOP), "seam")
     yield from opened(window, "U")
     window.picture("menu-uv")
     yield from window.choose("mesh.optimize_seams()")
-    assert flagged(now(), "seam") == edge_set(ring(GROOVE))
+    assert marked_edges(now(), "seam") == edge_set(ring(GROOVE))
 
 
 def labeled():
-    """The cylinder with two face sets that meet in a rough loop, in face mode."""
+    """Make the cylinder with two face sets that meet in a rough loop, in face mode."""
     obj = grooved_cylinder()
     sets = obj.data.attributes.new(segmentation.FACE_SETS, "INT", "FACE")
     sets.data.foreach_set("value", [1 + (face.index >= (GROOVE - 3) * SEGMENTS) for face in obj.data.polygons])
@@ -84,7 +84,7 @@ def test_the_face_menu_moves_the_borders_of_regions(window):
 
 
 def searched(window, word, entry, take):
-    """What F3 finds for a word: a picture, and the run of the entry that stands at that place of the list."""
+    """Search for a word with F3, save a picture, and run the entry at this position in the list."""
     yield from opened(window, "F3")
     yield from window.type(word)
     yield from window.rest()
@@ -100,13 +100,13 @@ def searched(window, word, entry, take):
 def test_search_finds_contour(window):
     cylinder()
     yield from searched(window, "contour", "MESH_OT_optimize_contour", 1)
-    assert flagged(now(), "select") == edge_set(ring(GROOVE))
+    assert marked_edges(now(), "select") == edge_set(ring(GROOVE))
 
 
 def test_search_finds_seam(window):
-    set_flag(cylinder(), pairs(LOOP), "seam")
+    mark_edges(cylinder(), pairs(LOOP), "seam")
     yield from searched(window, "seam", "MESH_OT_optimize_seams", 2)
-    assert flagged(now(), "seam") == edge_set(ring(GROOVE))
+    assert marked_edges(now(), "seam") == edge_set(ring(GROOVE))
 
 
 def test_search_finds_segmentation(window):

@@ -1,28 +1,28 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a user does in the sidebar and in the panel of the last operation, by clicks."""
+"""What a user does in the sidebar and the redo panel, by clicks."""
 
 import bmesh
 import bpy
 import numpy as np
-from made_meshes import GROOVE, edge_set, everything, flagged, pairs, ring, set_flag
+from made_meshes import GROOVE, edge_set, mark_edges, marked_edges, mesh_state, pairs, ring
 from minimum_ratio_contours.core import parameters
 from minimum_ratio_contours.ui import panels
 from prepared import LOOP, cylinder, now
 
 BUTTON = "mesh.optimize_contour()"
-ROW = 24  # pixels from a row of settings to the next, at Blender's own resolution
+ROW = 24  # pixels from one row of settings to the next, at the default resolution
 
 
 def remembered():
     return bpy.context.window_manager.operator_properties_last(panels.OPERATOR)
 
 
-def test_the_button_optimizes_and_the_panel_tells_of_it(window):
+def test_the_button_optimizes_and_the_panel_shows_the_result(window):
     cylinder()
     yield from window.open_sidebar()
     window.picture("sidebar-before")
     yield from window.push("UI", BUTTON)
-    assert flagged(now(), "select") == edge_set(ring(GROOVE))
+    assert marked_edges(now(), "select") == edge_set(ring(GROOVE))
     yield from window.move(20, 20)
     window.picture("sidebar-after")
     assert "1 contour improved" in bpy.context.window_manager.minimum_ratio_contours.message
@@ -40,9 +40,9 @@ def test_the_output_is_chosen_by_clicks(window):
     yield from window.press("RET")
     assert remembered().output == "SEAM"
     yield from window.push("UI", BUTTON)
-    assert flagged(now(), "seam") == edge_set(ring(GROOVE))
+    assert marked_edges(now(), "seam") == edge_set(ring(GROOVE))
     yield from window.press("Z", ctrl=True)
-    assert not flagged(now(), "seam")
+    assert not marked_edges(now(), "seam")
 
 
 def test_a_setting_is_typed_in(window):
@@ -56,7 +56,7 @@ def test_a_setting_is_typed_in(window):
     yield from window.press("RET")
     assert remembered().width == 1
     yield from window.push("UI", BUTTON)
-    assert flagged(now(), "select") != edge_set(ring(GROOVE))  # which lies four rings away
+    assert marked_edges(now(), "select") != edge_set(ring(GROOVE))  # the groove is four rings away
 
 
 def test_a_preset_is_chosen_by_clicks(window):
@@ -79,27 +79,27 @@ def test_a_preset_is_chosen_by_clicks(window):
 
 def test_all_panels_unfold(window):
     obj = cylinder()
-    before = everything(obj)
+    before = mesh_state(obj)
     yield from window.open_sidebar()
     region = window.region_of("UI")
     yield from window.move_over(region.x + 60, region.y + region.height - ROW // 2)
     yield from window.press("A")  # folds the panel under the mouse, and unfolds it
     window.picture("sidebar-folded")
     yield from window.press("A")
-    assert everything(obj) == before
+    assert mesh_state(obj) == before
 
 
-def test_all_seams_by_the_panels_settings(window):
+def test_all_seams_are_optimized_with_the_settings_of_the_panel(window):
     obj = cylinder()
-    set_flag(obj, pairs(LOOP), "seam")
+    mark_edges(obj, pairs(LOOP), "seam")
     remembered().width = 1
     yield from window.open_sidebar()
     yield from window.push("UI", "mesh.optimize_seams(")
-    narrow = flagged(now(), "seam")
+    narrow = marked_edges(now(), "seam")
     remembered().width = 8
     yield from window.push("UI", "mesh.optimize_seams(")
     assert narrow != edge_set(ring(GROOVE))
-    assert flagged(now(), "seam") == edge_set(ring(GROOVE))
+    assert marked_edges(now(), "seam") == edge_set(ring(GROOVE))
 
 
 def test_a_change_in_the_redo_panel_runs_again(window):
@@ -107,7 +107,7 @@ def test_a_change_in_the_redo_panel_runs_again(window):
     yield from window.open_sidebar()
     remembered().width, remembered().iterations, remembered().reach, remembered().min_salience = 37, 1, 0.0, 0.0
     yield from window.push("UI", BUTTON)
-    assert flagged(now(), "select") == edge_set(ring(GROOVE))
+    assert marked_edges(now(), "select") == edge_set(ring(GROOVE))
     region = window.region_of("HUD")
     yield from window.move_over(region.x + region.width // 2, region.y + region.height - ROW // 2)
     yield from window.press("LEFTMOUSE")
@@ -121,13 +121,13 @@ def test_a_change_in_the_redo_panel_runs_again(window):
     yield from window.rest()
     window.picture("redo-again")
     assert bpy.context.window_manager.operators[-1].width == 2
-    assert flagged(now(), "select") not in (edge_set(ring(GROOVE)), edge_set(LOOP))
+    assert marked_edges(now(), "select") not in (edge_set(ring(GROOVE)), edge_set(LOOP))
 
 
 def fine_cylinder():
-    """Of 16 faces for each, with the same loop selected."""
+    """Make the cylinder with 16 faces for each of the usual ones, and the same loop selected."""
     obj = cylinder()
-    set_flag(obj, pairs(LOOP), "seam")
+    mark_edges(obj, pairs(LOOP), "seam")
     bpy.ops.mesh.select_all(action="SELECT")
     bpy.ops.mesh.subdivide(number_cuts=3)
     bm = bmesh.from_edit_mesh(obj.data)
@@ -139,9 +139,9 @@ def fine_cylinder():
     return obj
 
 
-def test_a_long_search_shows_its_progress_and_escape_leaves_it(window):
+def test_a_long_search_shows_its_progress_and_escape_cancels_it(window):
     obj = fine_cylinder()
-    before = everything(obj)
+    before = mesh_state(obj)
     yield from window.wait()
     untouched = window.upper(window.picture("search-before"))
     settings = {"refinement": 8, "iterations": 64, "regular_iterations": 0, "reach": 0.0, "width": 64}
@@ -149,8 +149,8 @@ def test_a_long_search_shows_its_progress_and_escape_leaves_it(window):
     yield from window.rest()
     window.picture("search")
     yield from window.press("ESC")
-    assert everything(obj) == before
+    assert mesh_state(obj) == before
     assert "Cancelled" in bpy.context.window_manager.minimum_ratio_contours.message
     yield from window.wait()
     left = window.upper(window.picture("search-after"))
-    assert np.abs(left - untouched).max(axis=2).mean() < 1e-3  # Blender draws some edges of as fine a mesh anew
+    assert np.abs(left - untouched).max(axis=2).mean() < 1e-3  # Blender redraws some edges of such a fine mesh
