@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Between Blender's meshes and plain arrays: polygons, and the edge attributes that hold a sample's loops."""
+"""Converts between Blender's meshes and plain arrays: polygons, and the edge attributes that store a sample's loops."""
 
 import bpy
 import numpy as np
@@ -8,7 +8,7 @@ from rough_loops import Polygons
 
 ROUGH = "rough_loop."  # a boolean edge attribute for each rough loop: this, then the loop's name
 SETTINGS = "settings."  # a custom property of the object for each rough loop that needs more than the defaults
-TRUE = "true_loop."  # likewise, where a loop ought to land by construction
+TRUE = "true_loop."  # likewise for the correct loop, known by construction
 
 
 def read(collection, name, width, dtype):
@@ -18,14 +18,14 @@ def read(collection, name, width, dtype):
 
 
 def polygons(mesh):
-    """The mesh's faces as arrays."""
+    """Return the mesh's faces as arrays."""
     starts = read(mesh.polygons, "loop_start", 1, np.int32)
     corners = read(mesh.loops, "vertex_index", 1, np.int32)
     return Polygons(read(mesh.vertices, "co", 3, np.float64), np.append(starts, len(corners)), corners)
 
 
 def new_object(name, positions, faces):
-    """A new mesh object in the scene, from the faces' vertices in order."""
+    """Add a mesh object to the scene; each face is given by its vertices in order."""
     mesh = bpy.data.meshes.new(name)
     mesh.from_pydata(positions.tolist(), [], faces)
     ob = bpy.data.objects.new(name, mesh)
@@ -38,12 +38,12 @@ def edge_pairs(mesh):
 
 
 def curve(mesh, vertices, closed=True):
-    """The polyline through vertices in order."""
+    """Return the polyline through vertices in order."""
     return surface_curve(mesh, np.stack([vertices, vertices], axis=1), np.zeros(len(vertices)), closed)
 
 
 def surface_curve(mesh, edge_vertices, edge_parameters, closed):
-    """The polyline through points on edges: (1 - t) a + t b on the edge ab."""
+    """Return the polyline through points on edges: (1 - t) a + t b on the edge ab."""
     positions, normals = (read(mesh.vertices, name, 3, np.float64) for name in ("co", "normal"))
     (a, b), t = np.transpose(edge_vertices), np.asarray(edge_parameters)[:, None]
     return Curve(*((1.0 - t) * array[a] + t * array[b] for array in (positions, normals)), closed)
@@ -55,23 +55,23 @@ def mean_edge_length(mesh):
 
 
 def edge_mask(mesh, loop):
-    """True for the mesh's edges that lie on a closed loop of vertices."""
+    """Return a mask of the mesh's edges that lie on a closed loop of vertices."""
     loop = np.asarray(loop, np.int64)
     sides = np.sort(np.stack([loop, np.roll(loop, -1)], axis=1), axis=1)
     pairs, count = edge_pairs(mesh).astype(np.int64), len(mesh.vertices)
     mask = np.isin(pairs @ (count, 1), sides @ (count, 1))
     if mask.sum() != len(loop):
-        raise ValueError(f"{mesh.name}: {len(loop) - mask.sum()} sides of the loop are no edges of the mesh.")
+        raise ValueError(f"{mesh.name}: {len(loop) - mask.sum()} sides of the loop are not edges of the mesh.")
     return mask
 
 
 def store_loop(mesh, attribute, loop):
-    """Keeps a loop in the mesh as a boolean edge attribute."""
+    """Store a loop in the mesh as a boolean edge attribute."""
     mesh.attributes.new(attribute, "BOOLEAN", "EDGE").data.foreach_set("value", edge_mask(mesh, loop))
 
 
 def stored_loops(mesh, prefix):
-    """Name -> vertices in order, of the loops stored under a prefix."""
+    """Return the loops stored under a prefix: name -> vertices in order."""
     names = [a.name for a in mesh.attributes if a.name.startswith(prefix)]
     return {name[len(prefix) :]: ordered_loop(mesh, stored_mask(mesh, name)) for name in names}
 
@@ -81,7 +81,7 @@ def stored_mask(mesh, attribute):
 
 
 def ordered_loop(mesh, mask):
-    """The vertices of the one closed loop that the marked edges form, in the add-on's order for selected edges."""
+    """Return the vertices of the closed loop of the marked edges, in the add-on's order for selected edges."""
     neighbors = {}
     for a, b in edge_pairs(mesh)[mask].tolist():
         neighbors.setdefault(a, []).append(b)
@@ -95,7 +95,7 @@ def ordered_loop(mesh, mask):
 
 
 def select_edges(mesh, mask):
-    """Selects just the marked edges, as Edit Mode will show them."""
+    """Select only the marked edges, as Edit Mode will show them."""
     vertices = np.zeros(len(mesh.vertices), bool)
     vertices[edge_pairs(mesh)[mask]] = True
     mesh.polygons.foreach_set("select", np.zeros(len(mesh.polygons), bool))

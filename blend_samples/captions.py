@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A strip of words as pixels, drawn with Blender's own font."""
+"""Draws a strip of text with Blender's own font."""
 
 import bpy
 from images import link, material, render, workbench
@@ -8,10 +8,10 @@ LINE, SMALL_LINE, PAD = 30, 23, 8  # pixels
 
 
 def strip(width, words, spacing=LINE):
-    """Words are (line from the top, pixels from the left, text, color); gives rows of pixels, from the bottom.
-    `spacing`: from line to line, in pixels; the letters go with it.
+    """Draw words, given as (line from the top, pixels from the left, text, color). Return rows of pixels, bottom first.
 
-    Words too long for their room, up to the next on their line or to the border, are made smaller.
+    `spacing` is the distance between lines in pixels; the size of the letters is proportional to it. Words that are too
+    long for the space up to the next word on their line, or to the border, are made smaller.
     """
     height = spacing * (1 + max(line for line, *_ in words)) + 12
     scene = bpy.data.scenes.new("words")
@@ -27,7 +27,7 @@ def strip(width, words, spacing=LINE):
         data.materials.append(material("words", color))
         placed = link(scene, "words", data)
         placed.location = (left, height - spacing * (line + 0.95), 0)
-        scene.view_layers[0].update()  # for the dimensions
+        scene.view_layers[0].update()  # computes the dimensions
         room = min([other for at, other, *_ in words if at == line and other > left], default=width) - left - PAD
         placed.scale *= min(1.0, room / placed.dimensions.x)
     return render(scene)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Contours as polylines in space, closed or open. This module knows NumPy alone."""
+"""Contours as polylines in space, closed or open. This module uses only NumPy."""
 
 from dataclasses import dataclass
 
@@ -8,7 +8,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Curve:
-    """A polyline on a surface and the outward normals of its points; a closed one does not repeat its first."""
+    """A polyline on a surface and the outward normals of its points; a closed one does not repeat its first point."""
 
     points: np.ndarray
     normals: np.ndarray
@@ -22,7 +22,7 @@ class Curve:
 
 
 def mean_distance(curve, other):
-    """Of the curve's points to the nearest points of another curve."""
+    """Return the mean distance from the curve's points to another curve."""
     apart, sides = curve.points[:, None] - other.starts()[None], other.sides()
     along = np.clip((apart * sides).sum(axis=2) / (sides**2).sum(axis=1), 0.0, 1.0)
     return np.linalg.norm(apart - along[:, :, None] * sides, axis=2).min(axis=1).mean()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws the manual's pictures of the add-on in Blender's window, on the hand: panel, live contour, curvature.
+"""Draws the manual's pictures of the add-on in a Blender window, with the hand: panel, live contour, curvature.
 
 BLENDER_USER_SCRIPTS=build/release xvfb-run -a -s "-screen 0 1600x1000x24" env LIBGL_ALWAYS_SOFTWARE=1 blender \
     --factory-startup --window-geometry 0 0 1600 1000 --enable-event-simulate --python blend_samples/draw_window.py \
@@ -27,13 +27,13 @@ import images  # noqa: E402
 import shapes  # noqa: E402
 from driver import PAUSE, Window  # noqa: E402
 
-SMOOTH = 40  # steps until all samples of a picture are there
+SMOOTH = 40  # steps until all samples of a picture are drawn
 SIZE, SHADES = (440, 380), 32
 FINGER = "index"
 
 
 def hand():
-    """The sample, in this scene."""
+    """Load the sample into this scene."""
     with bpy.data.libraries.load(str(HERE / "hand.blend")) as (_, loaded):
         loaded.objects = ["hand"]
     bpy.context.scene.collection.objects.link(loaded.objects[0])
@@ -42,7 +42,7 @@ def hand():
 
 
 def select_roughly(obj):
-    """A wavy loop a little above a finger's base."""
+    """Select a wavy loop slightly above a finger's base."""
     centers = np.array([face.center for face in obj.data.polygons])
     base, axis = (np.array(vector) for vector in shapes.finger_axis(FINGER))
     heights = (centers - base) @ axis - 0.45 * np.sin(3 * centers[:, 0] + 5 * centers[:, 1])
@@ -53,7 +53,7 @@ def select_roughly(obj):
 
 
 def taken(window, box):
-    """The pixels within a box of the window."""
+    """Return the pixels within a box of the window."""
     for _ in range(SMOOTH):
         yield
     x, y, width, height = box
@@ -61,15 +61,15 @@ def taken(window, box):
     return pixels[y : y + height, x : x + width]
 
 
-def box_round(window, point, width, height):
-    """A box in the window round a point in space."""
+def box_around(window, point, width, height):
+    """Return a box in the window around a point in space."""
     x, y = location_3d_to_region_2d(window.region, window.view, point)
     return window.region.x + int(x) - width // 2, window.region.y + int(y) - height // 2, width, height
 
 
 def save_view(window, place, path):
-    """What is seen round a point, in few shades, which make a smaller file."""
-    pixels = yield from taken(window, box_round(window, place, *SIZE))
+    """Save the view around a point, with few shades for a small file."""
+    pixels = yield from taken(window, box_around(window, place, *SIZE))
     images.save(np.round(pixels * SHADES) / SHADES, path)
 
 
@@ -98,7 +98,7 @@ def draw(folder, window):
 
 
 def step():
-    """Exceptions in timers leave Blender running: end by hand."""
+    """Run one step, and exit explicitly: exceptions in timers leave Blender running."""
     status = 1
     try:
         next(running)

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Polygons on grids, bodies of revolution, and rough curves on them; numpy only, so that Blender and the tests can both
-use it."""
+"""Polygons on grids, bodies of revolution, and rough curves on them. Uses only NumPy, for Blender and the tests."""
 
 import numpy as np
 
 
 def grid_faces(rows, columns, closed_rows=False, closed_columns=True):
-    """Quads of a grid whose vertex (row, column) has the number row * columns + column. Seen from outside the columns
-    run to the right and the rows up."""
+    """Return the quads of a grid whose vertex (row, column) has the index row * columns + column.
+
+    Seen from outside, the columns run to the right and the rows up.
+    """
     faces = []
     for row in range(rows if closed_rows else rows - 1):
         for column in range(columns if closed_columns else columns - 1):
@@ -16,11 +17,11 @@ def grid_faces(rows, columns, closed_rows=False, closed_columns=True):
     return faces
 
 
-def split_quads(faces, rng, share=1.0):
-    """Splits a share of the quads into two triangles along a random diagonal."""
+def split_quads(faces, rng, fraction=1.0):
+    """Split a fraction of the quads into two triangles along a random diagonal."""
     result = []
     for a, b, c, d in faces:
-        if rng.random() >= share:
+        if rng.random() >= fraction:
             result.append((a, b, c, d))
         elif rng.random() < 0.5:
             result += [(a, b, c), (a, c, d)]
@@ -30,13 +31,13 @@ def split_quads(faces, rng, share=1.0):
 
 
 def pole(row, columns, number, below=False):
-    """Triangles that close a tube's row of vertices with the vertex `number`, above it or below."""
+    """Return triangles that close a tube's row of vertices with the vertex `number`, above it or below."""
     ring = row * columns + np.arange(columns)
     return [(b, a, number) if below else (a, b, number) for a, b in zip(ring.tolist(), np.roll(ring, -1).tolist())]
 
 
 def lathe(profile, columns, top, rng, noise):
-    """Turns a profile of (radius, height) round the z axis, up to a vertex on the axis at the height `top`."""
+    """Turn a profile of (radius, height) around the z axis, and close it with a vertex on the axis at height `top`."""
     angle = 2 * np.pi * np.arange(columns) / columns
     rings = [np.stack([r * np.cos(angle), r * np.sin(angle), np.full(columns, z)], axis=-1) for r, z in profile]
     positions = np.concatenate([*rings, np.array([[0.0, 0.0, top]])])
@@ -46,9 +47,11 @@ def lathe(profile, columns, top, rng, noise):
 
 
 def finger(rng, columns=32, edge=0.2, length=4.0, base=1.0, tip=0.6, joint=0.0):
-    """A finger on a palm, made by turning a profile: a flat palm, the concave base ring, a shaft that narrows towards
-    the tip all the way, and a round tip. Triangulated at random. Returns positions, faces and the base ring's vertices
-    (the ring at the profile's only concave corner, but for a joint half way up where its depth is given)."""
+    """Make a finger on a palm by turning a profile. Return positions, faces and the vertices of the base ring.
+
+    The profile is a flat palm, the concave base ring, a shaft that narrows all the way to the tip, and a round tip. The
+    base is its only concave corner, except for a joint halfway up whose depth may be given. Triangulated at random.
+    """
     palm = [(r, 0.0) for r in np.arange(base + 8 * edge, base + 0.5 * edge, -edge)]
     shaft_rows = round(length / edge)
     shaft = [
@@ -62,7 +65,7 @@ def finger(rng, columns=32, edge=0.2, length=4.0, base=1.0, tip=0.6, joint=0.0):
 
 
 def grid_path(rows, columns, first=0, closed=True):
-    """The way along a grid's edges with one row for each column from `first` on; it climbs between two columns."""
+    """Return the path along a grid's edges through one row per column from `first` on; it climbs between columns."""
     following = np.append(rows[1:], rows[0] if closed else rows[-1])
     path = []
     for i, (row, goal) in enumerate(zip(rows, following)):
@@ -72,14 +75,16 @@ def grid_path(rows, columns, first=0, closed=True):
 
 
 def plane_loops(positions, faces, normal, offset):
-    """The jagged loops between the polygons whose center lies above a plane (on their left) and the others. Loops that
-    touch themselves or each other are left out, and so are those on the mesh border."""
+    """Return the jagged loops between the polygons with their center above a plane, on the left, and the others.
+
+    Loops that touch themselves or each other are left out, and so are those on the mesh border.
+    """
     centers = np.array([positions[list(face)].mean(axis=0) for face in faces])
     return border_loops(faces, centers @ np.asarray(normal, dtype=float) > offset)
 
 
 def border_loops(faces, chosen):
-    """The loops round the chosen polygons, which lie on their left; without those that touch or lie on the border."""
+    """Return the loops around the chosen polygons, which lie on their left; none that touch or lie on the border."""
     owner = {edge: i for i, face in enumerate(faces) for edge in zip(face, face[1:] + face[:1])}
     following, branched = {}, set()
     for (a, b), face in owner.items():

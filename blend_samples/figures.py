@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes and rough contours that make the points of the thesis's figures (1.1, 3.3 and chapter 5).
+"""Meshes and rough contours that show the same as the thesis's figures (1.1, 3.3 and chapter 5).
 
-The thesis shows scans. Here are bodies of known shape instead, so that one can say where each contour ought to land.
-numpy only: Blender draws them and the tests measure them.
+The thesis shows scans. These are bodies of known shape instead, so that the correct contours are known. Uses only
+NumPy: Blender draws the figures and the tests measure them.
 """
 
 from dataclasses import dataclass, field
@@ -10,11 +10,11 @@ from dataclasses import dataclass, field
 import numpy as np
 from figure_meshes import border_loops, finger, grid_faces, grid_path, lathe, plane_loops, pole, split_quads
 
-FRAGMENT, GAP = 9, 10  # of 3.3, in edges: each of the two grooves, and what lies between them
+FRAGMENT, GAP = 9, 10  # of 3.3, in edges: the length of each of the two grooves, and of the gap between them
 TORSO_GROOVES, TORSO_WAIST = (-0.15, 0.3, 0.75, 1.2), -1.05  # heights
-EYES, EYE = 15.0, (10.0, 4.0)  # how far the eyes are from the middle; their half length and half height
+EYES, EYE = 15.0, (10.0, 4.0)  # distance of the eyes from the middle; their half length and half height
 FACE = (11.0, 14.0)  # half axes of the face's outline
-NECK = (4.5, 1.6, 0.6)  # the crease below the chin: how far from the outline, how deep, and its reach as an angle
+NECK = (4.5, 1.6, 0.6)  # the crease below the chin: distance from the outline, depth, and extent as an angle
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class Search:
     title: str
     given: np.ndarray  # vertices of the given contour
     options: dict
-    wishes: dict = field(default_factory=dict)  # keyword arguments of `optimize` besides
+    constraints: dict = field(default_factory=dict)  # further keyword arguments of `optimize`
     closed: bool = True
 
 
@@ -40,7 +40,7 @@ class Figure:
 
 
 def ball(azimuth, elevation, radius):
-    """A grid of points round a head that looks along -y, and its two poles (the upper one first)."""
+    """Return a grid of points around a head that looks along -y, and its two poles (the upper one first)."""
     flat = radius * np.cos(elevation)
     points = np.stack([flat * np.sin(azimuth), -flat * np.cos(azimuth), radius * np.sin(elevation)], axis=-1)
     top, bottom = (np.mean(np.linalg.norm(row, axis=-1)) for row in (points[-1], points[0]))
@@ -48,8 +48,10 @@ def ball(azimuth, elevation, radius):
 
 
 def relief(rows, columns, height, dome, rng):
-    """A curved sheet of unit-long edges that looks along -y, with a relief of the height given at (x, z), triangulated
-    at random. `dome`: how far it falls off along x and z for each unit squared."""
+    """Make a curved sheet with edges of length 1 that looks along -y, with a relief of the given height(x, z).
+
+    It is triangulated at random. `dome` has the quadratic coefficients of its curvature along x and z.
+    """
     x, z = np.meshgrid(np.arange(columns) - (columns - 1) / 2, np.arange(rows) - (rows - 1) / 2)
     x, z = (axis + 0.12 * rng.standard_normal(axis.shape) for axis in (x, z))
     y = dome[0] * x**2 + dome[1] * z**2 - height(x, z)
@@ -58,8 +60,10 @@ def relief(rows, columns, height, dome, rng):
 
 
 def trunk(rows, columns, edge, radius, rng, slant=0.0):
-    """A closed body round the z axis with the radius given at (angle, z) but for its round ends, triangulated at
-    random. The mesh's rows lean, with the slant as their slope."""
+    """Make a closed body around the z axis with the given radius(angle, z) and round ends, triangulated at random.
+
+    The rows of the mesh are tilted with the slope `slant`.
+    """
     angle, z = np.meshgrid(2 * np.pi * np.arange(columns) / columns, edge * (np.arange(rows) - (rows - 1) / 2))
     ends = np.sqrt(1 - (z / (0.5 * edge * rows)) ** 10)
     angle = angle + 0.4 * np.pi / columns * rng.uniform(-1, 1, angle.shape)
@@ -73,7 +77,7 @@ def trunk(rows, columns, edge, radius, rng, slant=0.0):
 
 
 def valley(away, width):
-    """The profile of a groove: 1 on its line and 0 far away from it."""
+    """Return the profile of a groove: 1 on its line and 0 far away from it."""
     return np.exp(-((away / width) ** 2))
 
 
@@ -82,8 +86,10 @@ def longest_loop(positions, faces, normal, offset):
 
 
 def finger_at_three_heights():
-    """1.1: wherever the contour starts on the finger, also in a crease (D), a band that holds the base (F) finds it.
-    Contour A, near the tip, does not vanish even in a narrow band."""
+    """1.1: From every start on the finger, even in a crease (D), a band that contains the base (F) finds it.
+
+    Contour A, near the tip, does not vanish even in a narrow band.
+    """
     positions, faces, base = finger(np.random.default_rng(11), joint=0.05)
     starts = {"C": ([0.2, 0.1, 1], 2.9), "D": ([0, 0, 1], 2.0), "E": ([-0.15, 0.2, 1], 1.2), "A": ([0.1, -0.1, 1], 4.1)}
     given = {name: longest_loop(positions, faces, *plane) for name, plane in starts.items()}
@@ -94,9 +100,11 @@ def finger_at_three_heights():
 
 
 def gap_between_fragments():
-    """3.3: two grooves, A and C, on a sheet that is bent across the diagonal, so that every way between them costs
-    something. B is the straight way, D and E are detours to its left and right. The mesh is a lattice of equilateral
-    triangles, so all three have edges to follow."""
+    """3.3: Two grooves, A and C, on a sheet bent across the diagonal, so that every path between them has a cost.
+
+    B is the straight path, D and E are detours to its left and right. The mesh is a lattice of equilateral triangles,
+    so all three run along edges.
+    """
     rows, columns = 29, 45
     row, column = np.divmod(np.arange(rows * columns), columns)
     x, z = column - columns // 2 + 0.5 * (row - rows // 2), (row - rows // 2) * np.sqrt(3) / 2
@@ -113,7 +121,7 @@ def gap_between_fragments():
 
 
 def detour(row, columns, away):
-    """From left to right on the lattice: along a row, in the gap so many rows up (or down) and back."""
+    """Return a path from left to right along a row of the lattice with a detour some rows up or down in the gap."""
     up, down = columns, 1 - columns  # both go half an edge to the right
     there, back = (up, down) if away > 0 else (down, up)
     over = [there] * abs(away) + [1] * (GAP - abs(away)) + [back] * abs(away)
@@ -122,8 +130,7 @@ def detour(row, columns, away):
 
 
 def limb(seed=51):
-    """5.1: a limb with a groove all round, the circle z = 0. The rows of the mesh lean against it, so that no edges
-    follow it."""
+    """5.1: A limb with a groove around it, the circle z = 0. The rows of the mesh are tilted, so no edges follow it."""
 
     def radius(angle, z):
         return 1 - 0.1 * z - 0.1 * valley(z, 0.2)
@@ -139,7 +146,7 @@ def limb(seed=51):
 
 
 def finger_narrowing():
-    """5.2: the finger's diameter only shrinks towards the tip; the base is its only concave ring."""
+    """5.2: The finger's diameter decreases all the way to the tip; the base is its only concave ring."""
     positions, faces, base = finger(np.random.default_rng(52))
     given = longest_loop(positions, faces, [0.12, -0.08, 1.0], 1.9)
     searches = (
@@ -151,7 +158,7 @@ def finger_narrowing():
 
 
 def thumb():
-    """5.3: a thumb on its ball. Where the ball begins is a deep ring, where the thumb leaves the ball a shallow one."""
+    """5.3: A thumb on its ball. The ball begins at a deep ring, and the thumb leaves it at a shallow one."""
     rng = np.random.default_rng(53)
     edge, columns = 0.2, 36
     corners = [(2.6, 0.0), (1.5, 0.0), (1.55, 0.45), (1.1, 1.0), (0.8, 3.2)]
@@ -173,7 +180,7 @@ def thumb():
 
 
 def torso():
-    """5.4: a trunk with shallow grooves in its belly, and a deep waist below them."""
+    """5.4: A trunk with shallow grooves in its belly, and a deep waist below them."""
 
     def radius(angle, z):
         belly = 0.5 - 0.5 * np.sin(angle)
@@ -188,7 +195,7 @@ def torso():
 
 
 def eyes():
-    """5.5: a pair of eyes in grooves. The given contours are near the grooves at the eyes' corners alone."""
+    """5.5: A pair of eyes in grooves. The given contours are near the grooves only at the corners of the eyes."""
 
     def height(x, z):
         away = eye_distance(x, z)
@@ -205,15 +212,14 @@ def eyes():
 
 
 def eye_distance(x, z, eye=EYE):
-    """About how far a point is outside the nearer eye, an almond between two parabolas."""
+    """Return about how far a point is outside the nearer eye, an almond between two parabolas."""
     along = (abs(x) - EYES) / eye[0]
     slope = 2 * eye[1] / eye[0] * along
     return (abs(z) - eye[1] * (1 - along**2)) / np.sqrt(1 + slope**2)
 
 
 def face():
-    """5.6: the outline of a face, and a deeper crease below the chin. Required are three vertices of the given contour
-    that lie on the chin."""
+    """5.6: The outline of a face, and a deeper crease below the chin. Three vertices on the chin are required."""
 
     def height(x, z):
         away = face_distance(x, z)
@@ -234,19 +240,21 @@ def face():
 
 
 def face_distance(x, z):
-    """About how far a point is outside the face's outline, an ellipse."""
+    """Return about how far a point is outside the face's outline, an ellipse."""
     return (np.hypot(x / FACE[0], z / FACE[1]) - 1) * np.mean(FACE)
 
 
 def nearest(positions, vertices, angle):
-    """The one of the vertices that is nearest to the outline's point of this angle."""
+    """Return which of the vertices is nearest to the point of the outline at this angle."""
     point = FACE[0] * np.cos(angle), FACE[1] * np.sin(angle)
     return int(vertices[np.argmin(np.linalg.norm(positions[vertices][:, [0, 2]] - point, axis=1))])
 
 
 def hairline():
-    """5.7: a head whose hair is a raised shell. The row of vertices at its foot is the hairline; at the back of the
-    head the step fades away, so that no closed contour is natural."""
+    """5.7: A head whose hair is a raised shell. The row of vertices at its foot is the hairline.
+
+    At the back of the head the step fades away, so no closed contour is natural.
+    """
     rng = np.random.default_rng(57)
     rows, columns, line = 32, 96, 18
     azimuth = 2 * np.pi * np.arange(columns) / columns - np.pi
@@ -261,7 +269,7 @@ def hairline():
     faces += pole(0, columns, rows * columns + 1, below=True)
     first, last = columns // 2 - 28, columns // 2 + 28
     wander = np.round(3.4 * np.sin(np.linspace(0, 3 * np.pi, last - first + 1))).astype(int)
-    wander[[1, -2]] = 0  # first and last edge are held, so they lie on the hairline
+    wander[[1, -2]] = 0  # the first and last edges are held, so they lie on the hairline
     given, truth = (grid_path(line + away, columns, first, closed=False) for away in (wander, 0 * wander))
     search = Search("width 5, 2 iterations", given, {"width": 5, "iterations": 2}, closed=False)
     return Figure("5.7", "An open curve finds the hairline", positions, tuple(faces), (search,), (truth,))

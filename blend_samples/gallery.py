@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The gallery: whole jobs, done by the operators in Edit Mode as a modeler does them, each with a picture.
+"""The gallery: complete jobs, done with the operators in Edit Mode as a modeler does them, each with a picture.
 
-A job checks what it has done, fails with a RuntimeError, and gives its lines of the table. README.md beside this file
-shows the pictures.
+A job checks its results, raises a RuntimeError if they are wrong, and returns its rows of the table. README.md in this
+folder shows the pictures.
 """
 
 import blender_meshes
@@ -16,11 +16,11 @@ ORANGE, BLUE, BLACK = (0.85, 0.25, 0.0), (0.0, 0.10, 0.75), (0.02, 0.02, 0.02)
 SKIN, SHIRT, SLEEVES = (1.0, 0.70, 0.48), (0.86, 0.16, 0.13), (1.0, 0.55, 0.08)
 JEANS, SHOES = (0.16, 0.30, 0.66), (0.20, 0.50, 0.22)
 ISLANDS = [SKIN, SHIRT, JEANS, JEANS, SHOES, SHOES, SLEEVES, SLEEVES, SKIN, SKIN]  # in the order of `_place`
-PARTS_MOVED = 0.16  # how far the printed parts are drawn apart, in their distances from the trunk
+PARTS_MOVED = 0.16  # how far the printed parts are moved apart, as a fraction of their distance from the trunk
 
 
 def character_seams(path, folder, api):
-    """The rough seams of a character, improved all at once by Optimize Seams."""
+    """Improve the rough seams of a character, all at once, with Optimize Seams."""
     ob = _opened(path)
     rough, given = ob.data.copy(), _curves(ob.data, _seams(ob.data))
     results = api.optimize_seams(ob)
@@ -38,7 +38,7 @@ def character_seams(path, folder, api):
 
 
 def character_printed(path, folder, api):
-    """The same character cut for printing: its parts are objects of their own, with smooth and closed rims."""
+    """Cut the same character for printing, into separate objects with smooth, closed rims."""
     ob = _opened(path)
     whole, given = ob.data.copy(), _curves(ob.data, _seams(ob.data))
     settings = {"refinement": 2}
@@ -63,7 +63,7 @@ def character_printed(path, folder, api):
 
 
 def hand_segmentation(path, folder, api):
-    """A ragged segmentation by materials, cleaned by Optimize Segmentation."""
+    """Clean a ragged segmentation by materials with Optimize Segmentation."""
     ob = _opened(path)
     settings = {"width": 12, "reach": 0.3}
     rough, colors = ob.data.copy(), list(shapes.PART_COLORS.values())
@@ -90,12 +90,12 @@ def _opened(path):
 
 
 def _operate(operator, **settings):
-    """Runs an operator in Edit Mode, in edge mode."""
+    """Run an operator in Edit Mode, in edge select mode."""
     bpy.context.scene.tool_settings.mesh_select_mode = (False, True, False)
     bpy.ops.object.mode_set(mode="EDIT")
     done = operator(**settings)
     bpy.ops.object.mode_set(mode="OBJECT")
-    _check(done == {"FINISHED"}, f"the operator answered {done}")
+    _check(done == {"FINISHED"}, f"the operator returned {done}")
 
 
 def _check(right, message):
@@ -127,7 +127,7 @@ def _edges(mesh, loop):
 
 
 def _curves(mesh, mask):
-    """The closed loops that the marked edges form, none of which meet."""
+    """Return the closed loops of the marked edges; no two of them may meet."""
     pairs, curves = blender_meshes.edge_pairs(mesh), []
     while mask.any():
         piece = _connected(pairs, mask)
@@ -137,7 +137,7 @@ def _curves(mesh, mask):
 
 
 def _connected(pairs, mask):
-    """The marked edges that hang together with the first of them."""
+    """Return the marked edges that are connected to the first of them."""
     reached, piece = set(pairs[np.flatnonzero(mask)[0]].tolist()), np.zeros(len(mask), bool)
     while True:
         met = mask & ~piece & np.isin(pairs, list(reached)).any(axis=1)
@@ -148,20 +148,20 @@ def _connected(pairs, mask):
 
 
 def _faces_at_edges(mesh):
-    """Of each edge of a closed mesh, its two faces."""
+    """Return the two faces of each edge of a closed mesh."""
     edges = blender_meshes.read(mesh.loops, "edge_index", 1, np.int32)
     faces = np.repeat(np.arange(len(mesh.polygons)), blender_meshes.read(mesh.polygons, "loop_total", 1, np.int32))
     return faces[np.argsort(edges, kind="stable")].reshape(-1, 2)
 
 
 def _borders(mesh, labels):
-    """The edges between faces of different labels."""
+    """Return a mask of the edges between faces with different labels."""
     first, second = labels[_faces_at_edges(mesh)].T
     return first != second
 
 
 def _islands(mesh, seams):
-    """Of each face the number of its UV island, in the order of `_place`."""
+    """Return the number of each face's UV island, in the order of `_place`."""
     joined, island = _faces_at_edges(mesh)[~seams], np.arange(len(mesh.polygons))
     while True:
         least = island.copy()
@@ -178,7 +178,7 @@ def _islands(mesh, seams):
 
 
 def _place(center):
-    """What parts are sorted by: from the middle outwards in steps, so that twins stay together, then downwards."""
+    """Return the sort key of a part: outward from the middle in steps, so that twins stay together, then downward."""
     return round(4 * abs(center[0])), -round(center[2]), center[0]
 
 
@@ -191,6 +191,6 @@ def _center(mesh):
 
 
 def _is_closed(mesh):
-    """True where each edge has two faces."""
+    """Whether each edge has two faces."""
     edges = blender_meshes.read(mesh.loops, "edge_index", 1, np.int32)
     return bool((np.bincount(edges, minlength=len(mesh.edges)) == 2).all())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of colored parts: several panels side by side, all seen from the same place."""
+"""Pictures of colored parts: several panels side by side, all with the same view."""
 
 from dataclasses import dataclass, field
 
@@ -20,10 +20,10 @@ INK = (0.05, 0.05, 0.06)
 
 @dataclass
 class Piece:
-    """A mesh with a color for each face, drawn a little off its place."""
+    """A mesh with a color for each face, drawn at an offset."""
 
     mesh: bpy.types.Mesh
-    colors: np.ndarray  # of each face its place in the picture's palette
+    colors: np.ndarray  # the index of each face's color in the picture's palette
     offset: tuple = (0.0, 0.0, 0.0)
 
     def positions(self):
@@ -38,7 +38,7 @@ class Panel:
 
 
 def draw_if_changed(path, palette, panels, towards, up=(0, 0, 1)):
-    """One PNG, unless it is there already. `towards`: the direction from the mesh to the camera."""
+    """Draw a PNG, unless it is up to date. `towards` is the direction from the mesh to the camera."""
     pieces = [piece for panel in panels for piece in panel.pieces]
     curves = [curve.points for panel in panels for curve in panel.curves]
     arrays = [blender_meshes.polygons(piece.mesh).vertices for piece in pieces] + curves
@@ -60,7 +60,7 @@ def draw(path, palette, panels, towards, up):
 
 
 def _common_view(panels, towards, up):
-    """The camera that sees the pieces of all panels, and the width of its frame over the height."""
+    """Return a camera that sees the pieces of all panels, and the aspect ratio of its frame."""
     towards = towards / np.linalg.norm(towards)
     right, top = views.frame(towards, up)
     positions = np.concatenate([piece.positions() for panel in panels for piece in panel.pieces])

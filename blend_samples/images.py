@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Renders of scenes as arrays of pixels, by Workbench, which needs no display, no light and no time."""
+"""Renders scenes to arrays of pixels with Workbench, which is fast and needs no display and no lights."""
 
 import tempfile
 from pathlib import Path
@@ -34,7 +34,7 @@ def workbench(scene, width, height):
 
 
 def render(scene):
-    """Rows of pixels from the bottom, on paper."""
+    """Render a scene on a paper background. Return rows of pixels, bottom first."""
     with tempfile.TemporaryDirectory() as folder:
         scene.render.filepath = str(Path(folder) / "half.png")
         bpy.ops.render.render(write_still=True, scene=scene.name)
@@ -43,7 +43,7 @@ def render(scene):
 
 
 def load(path):
-    """Rows of pixels from the bottom, with their alpha."""
+    """Return rows of pixels with alpha, bottom first."""
     image = bpy.data.images.load(str(path))
     width, height = image.size
     pixels = np.empty(4 * width * height, np.float32)

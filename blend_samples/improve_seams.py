@@ -3,8 +3,8 @@
 
     blender -b --factory-startup --python blend_samples/improve_seams.py -- in.blend out.blend
 
-It prints what became of each seam as one line of JSON. Where anything fails it writes no file, says why, also in the
-JSON, and exits with 1. `-- --help` lists the settings, which are the add-on's own. The add-on may be installed as a
+It prints one line of JSON with the result of each seam. If anything fails, it writes no file, prints the error, also in
+the JSON, and exits with 1. `-- --help` lists the settings, which are the add-on's own. The add-on may be installed as a
 legacy add-on or as an extension, enabled or not.
 """
 
@@ -15,7 +15,7 @@ import sys
 import traceback
 from pathlib import Path
 
-import bpy  # first: as a wheel it brings the path of the next one
+import bpy  # first, since the bpy wheel adds the path of the next one
 
 # isort: split
 import addon_utils
@@ -25,13 +25,13 @@ ADDON = "minimum_ratio_contours"  # as an extension it is called bl_ext.<reposit
 
 
 class Failure(Exception):
-    """What the user should read instead of a traceback."""
+    """An error with a message for the user, printed instead of a traceback."""
 
 
 def addon_module():
-    """The full name of the add-on's package, which is enabled for this run."""
+    """Enable the add-on for this run and return the full name of its package."""
     names = [module.__name__ for module in addon_utils.modules() if module.__name__.split(".")[-1] == ADDON]
-    names.sort(key=lambda name: not addon_utils.check(name)[1])  # one that is in use goes first
+    names.sort(key=lambda name: not addon_utils.check(name)[1])  # an enabled one comes first
     for name in names:
         if addon_utils.check(name)[1] or addon_utils.enable(name):
             return name
@@ -39,7 +39,7 @@ def addon_module():
 
 
 def read_arguments(settings):
-    """The files, the objects, and those settings of the add-on's table that are given."""
+    """Parse the command line. Return its arguments, and the settings among them by name."""
     parser = argparse.ArgumentParser(prog="improve_seams.py --", description="Moves seams to part boundaries.")
     parser.add_argument("input", type=Path, help="the .blend file to read")
     parser.add_argument("output", type=Path, help="the .blend file to write")
@@ -58,7 +58,7 @@ def read_arguments(settings):
 
 
 def mesh_objects(names):
-    """An object for each mesh of the file, or of those that are named; linked ones are read only."""
+    """Return an object for each mesh of the file, or of the named objects; linked ones are left out as read-only."""
     missing = sorted(set(names or ()) - set(bpy.data.objects.keys()))
     if missing:
         raise Failure(f"there is no object named {', '.join(missing)}")
@@ -70,7 +70,7 @@ def mesh_objects(names):
 
 
 def describe(result):
-    """A native result in plain numbers and words."""
+    """Return a native result as plain numbers and text."""
     points = np.asarray(result.positions)
     ends = np.roll(points, -1, axis=0) if result.closed else points[1:]
     return {
@@ -85,7 +85,7 @@ def describe(result):
 
 
 def improve(api, obj, settings):
-    """Moves the seams of one object; returns what became of them."""
+    """Move the seams of one object, and return their results."""
     try:
         return {
             "object": obj.name,
@@ -96,7 +96,7 @@ def improve(api, obj, settings):
 
 
 def run():
-    """What is printed; writes the file where nothing failed."""
+    """Process the file and write the other one if nothing failed. Return the summary to be printed."""
     name = addon_module()
     parameters = importlib.import_module(name + ".core.parameters")
     given, settings = read_arguments({setting: parameters.SETTINGS[setting] for setting in parameters.NETWORK})
@@ -120,7 +120,7 @@ def main():
         json.dumps(summary, allow_nan=False)
     except Failure as failure:
         summary = {"error": str(failure)}
-    except Exception as error:  # Blender would go on, and exit with 0
+    except Exception as error:  # otherwise Blender would go on and exit with 0
         traceback.print_exc()
         summary = {"error": f"{type(error).__name__}: {error}"}
     print(json.dumps(summary), flush=True)

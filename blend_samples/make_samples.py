@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes the small .blend files beside this script:
+"""Makes the small .blend files in this folder:
 
     blender -b --factory-startup --python-exit-code 1 --python blend_samples/make_samples.py -- [SAMPLE...]
 
-Each holds one mesh with its rough loops as boolean edge attributes `rough_loop.NAME`, all of them selected (so go to
-Edit Mode and press Optimize Contour). Settings that a loop needs besides the add-on's defaults are in the custom
-property `settings.NAME` of the object; `rough_loops` has the rule. Where the construction says where a contour ought
-to land, those edges are in `true_loop.NAME`. The character's rough loops are marked as seams besides;
-`hand_parts` has no loops but ragged materials.
+Each file holds one mesh. Its rough loops are boolean edge attributes `rough_loop.NAME`, all of them selected: enter
+Edit Mode and press Optimize Contour. If a loop needs other settings than the add-on's defaults, they are in the custom
+property `settings.NAME` of the object; `rough_loops` has the rule. If the correct contour is known by construction, its
+edges are in `true_loop.NAME`. The character's rough loops are also marked as seams; `hand_parts` has ragged materials
+instead of loops.
 """
 
 import sys
@@ -25,7 +25,7 @@ import blender_meshes  # noqa: E402
 import shapes  # noqa: E402
 from rough_loops import Cut, border_loop, rough_loop, settings  # noqa: E402
 
-# The fingers' planes: axis and degrees by which they are tilted from right across the finger.
+# The fingers' planes: the axis and the angle in degrees by which they are tilted from perpendicular to the finger.
 TILTS = {"index": ("Y", 14.0), "middle": ("X", 18.0), "ring": ("Y", -12.0), "little": ("X", 15.0), "thumb": ("Y", 20.0)}
 
 CUTS = {
@@ -55,7 +55,7 @@ SAMPLES = ("hand", *CUTS, "character", "hand_parts")
 
 
 def both_sides(name, point, normal):
-    """A cut on the character's left, and its twin."""
+    """Return a cut on the character's left side, and its mirror image."""
     return [
         Cut(f"{side}_{name}", (sign * point[0], *point[1:]), (sign * normal[0], *normal[1:]))
         for side, sign in (("left", 1), ("right", -1))
@@ -63,7 +63,7 @@ def both_sides(name, point, normal):
 
 
 def character_cuts():
-    """Where a hurried modeler marks the seams of a figure: near the joints, and tilted."""
+    """Return cuts where a modeler in a hurry would mark seams: near the joints, and tilted."""
     return [
         Cut("neck", (0.0, 0.0, 13.9), (0.2, 0.2, 1.0)),
         *both_sides("shoulder", (2.5, 0.0, 11.4), (1.0, 0.3, -0.45)),
@@ -74,7 +74,7 @@ def character_cuts():
 
 
 def finger_cut(name):
-    """A loop half way up a finger, tilted."""
+    """Return a tilted cut halfway up a finger."""
     _, direction = shapes.finger_axis(name)
     middle = shapes.finger_point(name, 0.5)
     axis, degrees = TILTS[name]
@@ -83,13 +83,13 @@ def finger_cut(name):
 
 
 def finger_bases(mesh):
-    """Where the fingers' cones leave the palm, by construction: the borders of the faces nearest to each cone."""
+    """Return where the fingers' cones leave the palm by construction: the borders of the faces nearest to each cone."""
     part = shapes.parts_of_hand(mesh.centers())
     return {name: border_loop(mesh, part == name, shapes.finger_point(name, 0.0)) for name in TILTS}
 
 
 def groove_bottom():
-    """The slanted plane of the groove."""
+    """Return the slanted plane of the groove."""
     slope, height = shapes.GROOVE["slope"], shapes.GROOVE["height"]
     return Cut("groove", (0.0, 0.0, height), (-slope, 0.0, 1.0))
 
@@ -125,7 +125,7 @@ def make(sample):
     ob = getattr(shapes, sample)()
     ob.data.polygons.foreach_set("use_smooth", np.ones(len(ob.data.polygons), bool))
     store_loops(sample, ob)
-    if sample == "character":  # its rough loops are its seams
+    if sample == "character":  # its rough loops are also seams
         ob.data.edges.foreach_set("use_seam", blender_meshes.read(ob.data.edges, "select", 1, bool))
     ob.select_set(True)
     bpy.context.scene.tool_settings.mesh_select_mode = (False, True, False)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures before and after: the surface gray, the faces searched green, given contours orange, contours found blue;
-where one is known by construction, the contour that ought to be found black; vertices that it must hold purple."""
+"""Pictures before and after: the surface is gray, faces searched are green, given contours orange, contours found blue,
+correct contours known by construction black, and required vertices purple."""
 
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -19,7 +19,7 @@ from mathutils import Matrix
 SIZE, GAP = 700, 12  # pixels of one half, and between the halves
 OVERVIEW_SIZE = 344
 SHEET_COLUMNS = 3
-MARGIN, OVERVIEW_MARGIN = 2.0, 1.3  # width of what is shown, over that of the contours
+MARGIN, OVERVIEW_MARGIN = 2.0, 1.3  # width of the picture, divided by that of the contours
 SHADES = 44  # of each color in the overview, for a small file
 GREY, GREEN = (0.85, 0.85, 0.83), (0.55, 0.86, 0.52)
 ORANGE, BLUE, BLACK, DARK_GREEN = (1.0, 0.13, 0.0), (0.0, 0.10, 1.0), (0.02, 0.02, 0.02), (0.10, 0.32, 0.09)
@@ -28,7 +28,7 @@ PURPLE = (0.36, 0.0, 0.5)
 
 @dataclass
 class Comparison:
-    """What one picture shows: curves, the faces searched, and a line of words for each half."""
+    """The content of one picture: curves, the faces searched, and a line of text for each half."""
 
     title: str
     before: str
@@ -38,25 +38,25 @@ class Comparison:
     searched: np.ndarray
     truths: list = field(default_factory=list)
     legend: str = "faces searched (green)"
-    heading: str = ""  # over both halves
-    held: tuple = ()  # vertices
-    in_view: list = field(default_factory=list)  # curves that the camera looks at, where not just those drawn
+    heading: str = ""  # above both halves
+    held: tuple = ()  # required vertices
+    in_view: list = field(default_factory=list)  # curves that the view must contain, if not only those drawn
 
     def stamp(self, mesh):
-        """Of all that the picture shows. The normals are the mesh's; Blender sums them up in an order that varies."""
+        """Return a hash of everything in the picture, except normals, which Blender sums up in a varying order."""
         points = [curve.points for curve in (*self.given, *self.found, *self.truths, *self.in_view)]
         arrays = [mesh.positions, mesh.vertices, *points, self.searched, np.asarray(self.held)]
         return stamps.stamp(arrays, [self.title, self.before, self.after, self.legend, self.heading])
 
 
 def draw_if_changed(path, ob, up, comparison):
-    """One PNG of a comparison, unless it is there already."""
+    """Draw a comparison as a PNG, unless it is up to date."""
     made_of = comparison.stamp(blender_meshes.polygons(ob.data))
     stamps.draw_if_changed(path, made_of, lambda: draw(path, ob, up, comparison))
 
 
 def draw(path, ob, up, comparison):
-    """One PNG of a comparison."""
+    """Draw a comparison as a PNG."""
     with scratch():
         halves = joined(_halves(ob, up, comparison, SIZE, MARGIN), axis=1)
         heading = [(comparison.heading, BLACK)] if comparison.heading else []
@@ -68,7 +68,7 @@ def draw(path, ob, up, comparison):
 
 
 def _legend(comparison):
-    """What the colors mean, besides those of the words."""
+    """Return the meaning of the colors that are not those of the text."""
     parts = [f"{len(comparison.searched)} {comparison.legend}"]
     if comparison.truths:
         parts.append("true contour black" if len(comparison.truths) == 1 else "true contours black")
@@ -78,7 +78,7 @@ def _legend(comparison):
 
 
 def overview_pair(ob, up, comparison, size=OVERVIEW_SIZE):
-    """A comparison as a small picture; several are put together by `draw_overview`."""
+    """Draw a comparison as a small picture; `draw_overview` combines several."""
     with scratch():
         halves = joined(_halves(ob, up, comparison, size, OVERVIEW_MARGIN), axis=1)
         words, spacing = _small_title(comparison, size + GAP), captions.LINE
@@ -94,13 +94,13 @@ def _small_title(comparison, right):
 
 
 def _two_lines(heading):
-    """Both about as long, so that every heading can have letters of one size."""
+    """Break a heading into two lines of similar length, so that all headings can have letters of the same size."""
     least = next(width for width in range(len(heading) // 2, len(heading)) if len(wrap(heading, width)) == 2)
     return [(line, 4, words, BLACK) for line, words in enumerate(wrap(heading, least))]
 
 
 def draw_sheet(path, drawn):
-    """One PNG of pictures that are there already, at half their size."""
+    """Combine existing pictures into one PNG, at half their size."""
     with scratch():
         halved = [_halved(images.load(picture)[:, :, :3]) for picture in drawn]
     draw_overview(path, halved, SHEET_COLUMNS)
@@ -112,18 +112,18 @@ def _halved(pixels):
 
 
 def draw_overview(path, pairs, columns=2, shades=SHADES):
-    """One PNG of several pairs, in rows, the first at the top left."""
+    """Combine several pairs into one PNG, in rows, the first at the top left."""
     blank = np.broadcast_to(np.float32(images.PAPER), pairs[0].shape)
     filled = pairs + [blank] * (-len(pairs) % columns)
     rows = [joined(filled[i : i + columns], axis=1) for i in range(0, len(filled), columns)]
-    margin = np.broadcast_to(np.float32(images.PAPER), (GAP, *rows[0].shape[1:]))  # words keep off the row above
+    margin = np.broadcast_to(np.float32(images.PAPER), (GAP, *rows[0].shape[1:]))  # keeps text away from the row above
     whole = np.concatenate([piece for row in reversed(rows) for piece in (row, margin)])
     with scratch():
         images.save(np.round(whole * shades) / shades, path)
 
 
 def joined(parts, axis):
-    """Pictures side by side with a gap between them."""
+    """Join pictures side by side, with a gap between them."""
     gap = np.ones((len(parts[0]), GAP, 3), np.float32)
     spaced = [piece for part in parts for piece in (gap, part)][1:]
     return np.concatenate(spaced, axis=axis)
@@ -131,14 +131,14 @@ def joined(parts, axis):
 
 @contextmanager
 def scratch():
-    """Removes at its end all that was made in it."""
+    """Remove everything that was created inside it when it ends."""
     data = bpy.data
     kinds = (data.scenes, data.objects, data.meshes, data.curves, data.materials, data.cameras, data.images)
-    kept = [set(kind) for kind in kinds]
+    existing = [set(kind) for kind in kinds]
     try:
         yield
     finally:
-        for kind, before in zip(kinds, kept):
+        for kind, before in zip(kinds, existing):
             bpy.data.batch_remove(set(kind) - before)
 
 
@@ -148,14 +148,14 @@ def _halves(ob, up, comparison, size, margin):
     given, found = comparison.given, comparison.found
     view = views.best_view(mesh, comparison.in_view or given + found, up, margin)
     set_up(scene, view, (size, size))
-    thickness = view.width * (SIZE / size) ** 0.5  # lines of small pictures are a little thicker
+    thickness = view.width * (SIZE / size) ** 0.5  # lines of small pictures are slightly thicker
     given_tubes = _tubes(scene, given, ORANGE, 0.0060 * thickness)
     _balls(scene, mesh, comparison.held, 0.0160 * thickness)
     before = images.render(scene)
     for drawn in given_tubes:
         drawn.data.bevel_depth = 0.0035 * thickness
     _tubes(scene, found, BLUE, 0.0070 * thickness)
-    for truth in comparison.truths:  # on top, for where it is the contour found
+    for truth in comparison.truths:  # on top, where it coincides with the contour found
         tube(scene, truth, BLACK, 0.0022 * thickness, lift=0.0130 * thickness)
     return before, images.render(scene)
 
@@ -191,7 +191,7 @@ def _tubes(scene, curves, color, radius):
 
 
 def tube(scene, curve, color, radius, lift):
-    """A tube along a curve, lifted off the surface."""
+    """Add a tube along a curve, lifted off the surface."""
     data = bpy.data.curves.new("contour", "CURVE")
     data.dimensions, data.bevel_depth, data.bevel_resolution = "3D", radius, 2
     spline = data.splines.new("POLY")
@@ -204,7 +204,7 @@ def tube(scene, curve, color, radius, lift):
 
 
 def _balls(scene, mesh, vertices, radius):
-    """A ball at each of the vertices."""
+    """Add a ball at each of the vertices."""
     bm = bmesh.new()
     for vertex in vertices:
         place = Matrix.Translation(mesh.vertices[vertex].co)

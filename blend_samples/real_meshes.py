@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Real scans and models out of Debian's libcgal-demo, read where it put them, and the planes of their rough loops.
+"""Real scans and models from the installed Debian package libcgal-demo, and the planes of their rough loops.
 
 The points of the planes are fractions of the mesh's bounding box, so that they can be read off a picture.
 """
@@ -59,7 +59,7 @@ STANDING_IN_Z = {"man.off", "hand.off"}  # the others stand in y
 
 
 def open_archive(folder):
-    """The package's archive; on a system set up without /usr/share/doc, from the package downloaded into `folder`."""
+    """Open the package's archive; on a system without /usr/share/doc, from the package downloaded into `folder`."""
     for root in (Path("/"), folder):
         if (root / ARCHIVE).exists():
             return tarfile.open(root / ARCHIVE)
@@ -72,18 +72,18 @@ def open_archive(folder):
 
 
 def read_off(archive, name):
-    """A triangle mesh in OFF: the counts, the positions, then '3 a b c' for each face."""
+    """Read a triangle mesh in OFF: the counts, the positions, then '3 a b c' for each face."""
     numbers = np.array(archive.extractfile(f"data/meshes/{name}").read().split()[1:], float)
     vertices, faces = int(numbers[0]), int(numbers[1])
     positions = numbers[3 : 3 + 3 * vertices].reshape(-1, 3)
     corners = numbers[3 + 3 * vertices :][: 4 * faces].reshape(-1, 4).astype(np.int32)
     if np.any(corners[:, 0] != 3):
-        raise ValueError(f"{name} holds faces that are no triangles.")
+        raise ValueError(f"{name} has faces that are not triangles.")
     return Polygons(positions, 3 * np.arange(faces + 1, dtype=np.int32), corners[:, 1:].ravel())
 
 
 def cuts(name, mesh):
-    """The table's planes in the mesh's own coordinates."""
+    """Return the table's planes in the mesh's own coordinates."""
     low, high = mesh.positions.min(axis=0), mesh.positions.max(axis=0)
 
     def place(fractions):
@@ -93,5 +93,5 @@ def cuts(name, mesh):
 
 
 def up(name):
-    """The axis that points up in the mesh, for the pictures."""
+    """Return the axis that points up in the mesh, for the pictures."""
     return (0, 0, 1) if name in STANDING_IN_Z else (0, 1, 0)

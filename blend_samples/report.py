@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The table of results: printed, as Markdown and as CSV."""
+"""The table of results, as Markdown and as CSV."""
 
 import csv
 
@@ -9,30 +9,30 @@ COLUMNS = [
 ]
 NOTE = (
     "Band, cut, nodes and arcs are those of the last iteration; ms is the time of the native stages. Salience says how "
-    "far to trust a result: above 2 nearly always right, below 0.5 seldom. 'off truth': the mean distance to the loop "
-    "known by construction (the nearest of several), in mean edge lengths of the mesh. 'settings': what differs from "
-    "the add-on's defaults; for the thesis's figures, which call the native module, from the module's."
+    "far to trust a result: above 2 it is nearly always right, below 0.5 seldom. 'off truth': the mean distance to the "
+    "correct loop known by construction (the nearest of several), in mean edge lengths of the mesh. 'settings': those "
+    "that differ from the add-on's defaults; for the thesis's figures, which call the native module, from the module's."
 )
 
 
 def row(sample, contour, mesh_faces, settings, result, off_truth):
-    """The columns of one contour."""
+    """Return the row of one contour."""
     counts = result.statistics
     faces, nodes, arcs = counts["faces"], counts["nodes"], counts["arcs"]
     sizes = [mesh_faces, faces, counts["cut"], nodes, arcs, f"{nodes / faces:.2f}", f"{arcs / nodes:.2f}"]
     milliseconds = 1000.0 * sum(counts["seconds"].values())
     outcome = [result.status, f"{result.salience:.2f}", f"{result.initial_ratio:.4g}", f"{result.ratio:.4g}"]
     off = "" if off_truth is None else f"{off_truth:.2f}"
-    differs = ", ".join(f"{name} {_in_short(value)}" for name, value in settings.items())
+    differs = ", ".join(f"{name} {_shortened(value)}" for name, value in settings.items())
     return [sample, contour, *map(str, sizes), str(counts["passes"]), *outcome, f"{milliseconds:.1f}", off, differs]
 
 
-def _in_short(value):
+def _shortened(value):
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
 def lines(rows):
-    """The table as aligned Markdown."""
+    """Return the table as lines of aligned Markdown."""
     table = [COLUMNS, *rows]
     widths = [max(len(line[i]) for line in table) for i in range(len(COLUMNS))]
     text = ["| " + " | ".join(cell.ljust(width) for cell, width in zip(line, widths)) + " |" for line in table]

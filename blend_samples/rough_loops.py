@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The written rule by which every sample gets its rough loops.
+"""The rule that defines the rough loops of all samples.
 
-A plane (a point within the limb and a normal, tilted as a hurried modeler would tilt it) parts the faces of a mesh by
-the side on which their center lies. The edges between faces of different sides are closed, jagged loops; the rough loop
-is the one whose mean vertex is nearest to the plane's point. Where it touches itself at a vertex, the longest part
-between two visits is taken. Nothing else is chosen, and nothing by hand. This module knows NumPy alone.
+A plane (a point inside the limb and a normal, tilted as by a modeler in a hurry) divides the faces of a mesh by the
+side of their center. The edges between faces on different sides form closed, jagged loops; the rough loop is the one
+whose mean vertex is nearest to the plane's point. If it touches itself at a vertex, the longest part between two visits
+is taken. Nothing is selected by hand. This module uses only NumPy.
 
-Every loop is optimized with the add-on's defaults, which trust that it was drawn near the boundary meant. The one
-exception are loops drawn about as far from the part's end as the default reach, or farther: such a cut also names a
-point where the part ends. There, as a modeler would, the width is the way to that point in the loop's mean edge lengths
-and three rings more, without bound (reach 0) and without preference for what is near (anchor 0).
+Loops are optimized with the add-on's defaults, which assume that a loop was drawn near the intended boundary. The only
+exception is a loop whose distance from the end of the part is about the default reach or more: its cut also names a
+point where the part ends. Then the width is the distance to that point in mean edge lengths of the loop plus three
+rings, as a modeler would choose it, with no limit of distance (reach 0) and no preference for near contours (anchor 0).
 """
 
 from dataclasses import dataclass
@@ -17,12 +17,12 @@ from math import ceil
 
 import numpy as np
 
-RINGS_BEYOND = 3  # the rings that a far search goes beyond the part's end, as in figure 5.2
+RINGS_BEYOND = 3  # rings beyond the end of the part in a far search, as in figure 5.2
 
 
 @dataclass(frozen=True)
 class Cut:
-    """One rough loop to be made: its plane and, for a loop drawn far along a part, a point where the part ends."""
+    """A rough loop to be made: its plane and, if it is far from the end of the part, a point where the part ends."""
 
     name: str
     point: tuple
@@ -43,7 +43,7 @@ class Polygons:
         return np.add.reduceat(self.positions[self.vertices], self.offsets[:-1]) / counts[:, None]
 
     def half_edges(self):
-        """From, to and face of every corner's half-edge."""
+        """Return the start, end and face of every corner's half-edge."""
         face = np.repeat(np.arange(len(self.offsets) - 1), np.diff(self.offsets))
         following = np.arange(1, len(self.vertices) + 1)
         following[self.offsets[1:] - 1] = self.offsets[:-1]
@@ -51,13 +51,13 @@ class Polygons:
 
 
 def rough_loop(mesh, cut):
-    """Vertices, in order, of the closed loop nearest to the cut's plane and point."""
+    """Return the vertices, in order, of the closed loop along the cut's plane that is nearest to its point."""
     point, normal = np.asarray(cut.point, float), np.asarray(cut.normal, float)
     return border_loop(mesh, (mesh.centers() - point) @ normal > 0.0, point)
 
 
 def settings(mesh, cut, loop):
-    """What the add-on's operator is given besides its defaults, by the rule above."""
+    """Return the operator's settings that differ from its defaults by the rule above."""
     if cut.end is None:
         return {}
     points = mesh.positions[loop]
@@ -67,15 +67,15 @@ def settings(mesh, cut, loop):
 
 
 def border_loop(mesh, positive, point):
-    """Of the closed loops between the faces marked and the others, the one nearest to a point."""
+    """Return the closed loop between the marked faces and the others that is nearest to a point."""
     loops = [_longest_simple_part(loop) for loop in _boundary_loops(mesh, positive)]
     if not loops:
-        raise ValueError("No closed edge loop parts these faces from the others.")
+        raise ValueError("No closed edge loop separates these faces from the others.")
     return min(loops, key=lambda loop: np.linalg.norm(mesh.positions[loop].mean(axis=0) - point))
 
 
 def _boundary_loops(mesh, positive):
-    """The closed loops between the faces of both sides, with the positive faces on their left."""
+    """Return the closed loops between the faces of both sides, with the positive faces on their left."""
     tail, head, face = (column.tolist() for column in _half_edges_near(mesh, positive))
     half_edge = dict(zip(zip(tail, head), face))
     following = _successors(mesh, set(face))
@@ -91,18 +91,18 @@ def _boundary_loops(mesh, positive):
 
 
 def _half_edges_near(mesh, positive):
-    """Only the half-edges of faces at vertices where both sides meet: work grows with the loops, not with the mesh."""
+    """Return only half-edges of faces at vertices where both sides meet, so that the work grows only with the loops."""
     tail, head, face = mesh.half_edges()
     seen = np.zeros((len(mesh.positions), 2), bool)
     seen[tail, positive[face].astype(int)] = True
     near = np.zeros(len(positive), bool)
     near[face[seen[tail].all(axis=1)]] = True
-    kept = near[face]
-    return tail[kept], head[kept], face[kept]
+    selected = near[face]
+    return tail[selected], head[selected], face[selected]
 
 
 def _successors(mesh, faces):
-    """(face, vertex) -> the vertex that follows it round the face."""
+    """Return a dictionary (face, vertex) -> the next vertex of the face."""
     following = {}
     for face in faces:
         corners = mesh.vertices[mesh.offsets[face] : mesh.offsets[face + 1]].tolist()
@@ -111,7 +111,7 @@ def _successors(mesh, faces):
 
 
 def _walk(start, boundary, half_edge, following):
-    """Follows a boundary, turning through positive faces, until it closes or meets the border of the mesh."""
+    """Follow a boundary, turning through positive faces, until it closes or meets the border of the mesh."""
     loop, pair = [start], start
     while True:
         face = half_edge[pair]
@@ -127,7 +127,7 @@ def _walk(start, boundary, half_edge, following):
 
 
 def _longest_simple_part(loop):
-    """Cuts a loop at the vertices that it visits twice and keeps the longest part."""
+    """Cut a loop at the vertices that it visits twice, and return the longest part."""
     parts, open_part = [], []
     for vertex in loop:
         if vertex in open_part:

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The thesis's figures: runs their searches through the native module, and draws each before and after.
+"""The thesis's figures: runs their searches with the native module, and draws each before and after.
 
-One picture for every search, and `overview.png` with all of them. What the numbers of a figure have to be is asserted
-by the tests.
+It draws one picture per search, and `overview.png` with all of them. The tests assert the numbers of the figures.
 """
 
 import re
@@ -17,18 +16,18 @@ import stamps
 from curves import mean_distance
 from figures import FIGURES
 
-SHOWN = {"1.1": 3}  # of each figure's searches the one in the small picture, where it is not the last
-SMALL, SHADES = 160, 28  # of it: pixels of a half, and shades of each color (the paper stays gray)
+SHOWN = {"1.1": 3}  # the search of a figure in the small picture, if it is not the last
+SMALL, SHADES = 160, 28  # of the small picture: pixels of a half, and shades of each color (the paper stays gray)
 
 
 def run(output, only, mrc):
-    """The figures wanted; gives the lines of the table and the failures."""
+    """Run the selected figures. Return the rows of the table and the failures."""
     wanted = [name for name in FIGURES if only in (None, "figures", name)]
     rows, failures, drawn = [], [], []
     for name in wanted:
         try:
             rows += run_figure(FIGURES[name](), output, mrc, drawn)
-        except Exception as error:  # the others shall still be run; reported below, and the run fails
+        except Exception as error:  # run the others all the same; the failure is reported at the end
             traceback.print_exc()
             failures.append(f"figure {name}: {error}")
     if drawn and len(wanted) == len(FIGURES):
@@ -37,7 +36,7 @@ def run(output, only, mrc):
 
 
 def run_figure(figure, output, mrc, drawn):
-    """All searches of a figure, with their pictures, which are added to `drawn`; gives its lines of the table."""
+    """Run all searches of a figure and add their pictures to `drawn`. Return its rows of the table."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     ob = blender_meshes.new_object(f"figure {figure.name}", figure.positions, figure.faces)
     surface = native_surface(figure, mrc)
@@ -53,7 +52,7 @@ def run_figure(figure, output, mrc, drawn):
 
 
 def draw_selection(path, mrc):
-    """One small picture of all figures, a search of each."""
+    """Draw one small picture of all figures, with one search of each."""
     made_of = stamps.stamp([], [shown_search(name, mrc, stamp_of) for name in FIGURES])
     stamps.draw_if_changed(path, made_of, lambda: draw_pairs(path, mrc))
 
@@ -64,7 +63,7 @@ def draw_pairs(path, mrc):
 
 
 def shown_search(name, mrc, use):
-    """What is made of a figure's object, its upward axis and the comparison of the search that is shown."""
+    """Return `use` of a figure's object, its upward axis and the comparison of the search that is shown."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     figure = FIGURES[name]()
     ob = blender_meshes.new_object(f"figure {name}", figure.positions, figure.faces)
@@ -89,15 +88,15 @@ def native_surface(figure, mrc):
 
 def optimize(surface, search, mrc):
     options = mrc.Options(**search.options)
-    result = mrc.optimize(surface, search.given, closed=search.closed, options=options, **search.wishes)
-    # A given contour without the required elements is no measure for those that have them.
+    result = mrc.optimize(surface, search.given, closed=search.closed, options=options, **search.constraints)
+    # A given contour without the required elements cannot be compared with those that have them.
     if result.status != "constrained" and result.objective > result.initial_objective:
         raise RuntimeError(f"the objective rose from {result.initial_objective} to {result.objective}: {search.title}")
     return result
 
 
 def compare(figure, mesh, search, result, surface, mrc):
-    """A search and its result in a picture."""
+    """Return the picture of a search and its result."""
     found = blender_meshes.surface_curve(mesh, result.edge_vertices, result.edge_parameters, search.closed)
     outcome = "left as it is" if result.status == "unchanged" else "contour found"
     return pictures.Comparison(
@@ -110,25 +109,25 @@ def compare(figure, mesh, search, result, surface, mrc):
         [blender_meshes.curve(mesh, truth, is_loop(mesh, truth)) for truth in figure.truths],
         legend="faces searched (green)" if result.statistics["iterations"] == 1 else "faces searched first (green)",
         heading=f"Figure {figure.name}: {figure.title}",
-        held=search.wishes.get("required_vertices", ()),
+        held=search.constraints.get("required_vertices", ()),
     )
 
 
 def is_loop(mesh, vertices):
-    """True where an edge leads from the last vertex back to the first."""
+    """Whether an edge joins the last vertex to the first."""
     return sorted((vertices[0], vertices[-1])) in blender_meshes.edge_pairs(mesh).tolist()
 
 
 def line(figure, mesh, search, result, comparison):
-    """The search's line of the table."""
-    wishes = {name.replace("_", " "): len(elements) for name, elements in search.wishes.items()}
+    """Return the search's row of the table."""
+    constraints = {name.replace("_", " "): len(elements) for name, elements in search.constraints.items()}
     away = [mean_distance(comparison.found[0], truth) for truth in comparison.truths]
     off = min(away) / blender_meshes.mean_edge_length(mesh) if away else None
-    settings = {**search.options, **wishes}
+    settings = {**search.options, **constraints}
     return report.row(f"figure {figure.name}", search.title, len(mesh.polygons), settings, result, off)
 
 
 def draw_overview(path, drawn):
-    """All the pictures at half their size."""
+    """Draw all pictures at half their size."""
     made_of = stamps.stamp([], [picture.with_suffix(".sha256").read_text() for picture in drawn])
     stamps.draw_if_changed(path, made_of, lambda: pictures.draw_sheet(path, drawn))

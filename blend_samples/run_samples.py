@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Optimizes the rough loops of all samples through the add-on, and writes .blend files, pictures and a table:
+"""Optimizes the rough loops of all samples with the add-on, and writes .blend files, pictures and a table:
 
     blender -b --factory-startup --python-exit-code 1 --python blend_samples/run_samples.py -- --output build/samples
 
-`--only figures` runs just the figures of the thesis, `--only 5.4` one of them, `--only gallery` just the gallery.
-Pictures that have not changed are drawn again with `--redraw` alone.
+`--only figures` runs only the figures of the thesis, `--only 5.4` one of them, `--only gallery` only the gallery.
+Pictures that have not changed are drawn again only with `--redraw`.
 
-With `--overview blend_samples/pictures/overview.png` it draws the picture of the README instead, and nothing else; with
-`--gallery blend_samples/pictures` the pictures of the gallery.
+With `--overview blend_samples/pictures/overview.png` it only draws the picture of the README; with
+`--gallery blend_samples/pictures` it only draws those of the gallery.
 
-BLENDER_USER_SCRIPTS names the folder whose `addons` holds the add-on with its native module. Every contour goes the way
-of a modeler, through the operator in Edit Mode with output Seam; the numbers are those of the add-on's `api` for the
-same loop. It fails where a contour does: an error, a seam that is not the contour found, or a ratio above the given
-loop's.
+BLENDER_USER_SCRIPTS names the folder whose `addons` holds the add-on with its native module. Every contour is optimized
+as by a modeler, with the operator in Edit Mode and output Seam; the numbers are those of the add-on's `api` for the
+same loop. The script fails if any contour does: on an error, a seam that is not the contour found, or an objective that
+rises.
 """
 
 import argparse
@@ -41,7 +41,7 @@ from rough_loops import rough_loop, settings  # noqa: E402
 
 FOUND = "found_loop."  # a boolean edge attribute for each contour found
 WORDS = ("given: rough loops", "found: part boundaries")
-OVERVIEW = {  # the samples in the README's picture, with what is said of each
+OVERVIEW = {  # the samples in the README's picture, with their captions
     "hand": ("Five fingers", *WORDS),
     "bear.off": ("Bear: ear, arm, neck", *WORDS),
     "armadillo.off": ("Scan: ear, arm, knee, tail", *WORDS),
@@ -66,7 +66,7 @@ def made_sample(path):
     ob = bpy.context.view_layer.objects.active
     loops = blender_meshes.stored_loops(ob.data, blender_meshes.ROUGH)
     truths = blender_meshes.stored_loops(ob.data, blender_meshes.TRUE)
-    ob.data.edges.foreach_set("use_seam", np.zeros(len(ob.data.edges), bool))  # there will be those found alone
+    ob.data.edges.foreach_set("use_seam", np.zeros(len(ob.data.edges), bool))  # only the contours found will be seams
     return Sample(path.stem, ob, loops, stored_settings(ob, loops), truths, (0, 0, 1))
 
 
@@ -90,7 +90,7 @@ def real_sample(name, archive):
 
 
 def samples(only, output):
-    """One after the other, as each replaces the file that is open; with the add-on enabled."""
+    """Yield one sample after the other, each of which replaces the open file; with the add-on enabled."""
     for path in sorted(HERE.glob("*.blend")):
         if only in (None, path.stem):
             sample = made_sample(path)
@@ -106,14 +106,14 @@ def samples(only, output):
 def enable_addon():
     module = addon_utils.enable("minimum_ratio_contours", default_set=True)
     if module is None:
-        raise SystemExit("The add-on minimum_ratio_contours is not in the folder that BLENDER_USER_SCRIPTS names.")
+        raise SystemExit("The add-on minimum_ratio_contours is not in the folder given by BLENDER_USER_SCRIPTS.")
     from minimum_ratio_contours import api
 
     return api, api.native_module()
 
 
 def mark_seam(sample, name, found):
-    """Runs the operator on the selected loop and checks that the seams it adds are the contour found."""
+    """Run the operator on the selected loop and check that the seams it adds are the contour found."""
     mesh = sample.ob.data
     blender_meshes.select_edges(mesh, blender_meshes.edge_mask(mesh, sample.loops[name]))
     wanted = blender_meshes.read(mesh.edges, "use_seam", 1, bool) | found
@@ -122,11 +122,11 @@ def mark_seam(sample, name, found):
     done = bpy.ops.mesh.optimize_contour(output="SEAM", keep_old=True, **sample.settings[name])
     bpy.ops.object.mode_set(mode="OBJECT")
     if done != {"FINISHED"} or not np.array_equal(blender_meshes.read(mesh.edges, "use_seam", 1, bool), wanted):
-        raise RuntimeError(f"the operator answered {done} and did not mark just the contour found")
+        raise RuntimeError(f"the operator returned {done}, or did not mark exactly the contour found")
 
 
 def run_contour(sample, name, output, api, mrc):
-    """One contour: result, seam, picture. Returns its line of the table."""
+    """Process one contour: result, seam, picture. Return its row of the table."""
     mesh, loop = sample.ob.data, sample.loops[name]
     result = api.optimize_contour(sample.ob, loop, **sample.settings[name])
     if result.objective > result.initial_objective:
@@ -149,14 +149,14 @@ def run_contour(sample, name, output, api, mrc):
 
 
 def outcome(result):
-    """A line of words for the picture."""
+    """Return a line of text for the picture."""
     if result.status == "unchanged":
         return f"left as it is: nothing clear to find (salience {result.salience:.2g})"
     return f"contour found: ratio {result.ratio:.3g}, salience {result.salience:.2g}"
 
 
 def searched(sample, name, api, mrc):
-    """The faces of the bands of all iterations, each grown from the contour that the one before found."""
+    """Return the faces of the bands of all iterations, each grown from the contour of the previous one."""
     surface, faces, loop = api.surface_of(sample.ob), [], sample.loops[name]
     options = api.native_options(**sample.settings[name])
     for done in range(1, options["iterations"] + 1):
@@ -170,7 +170,7 @@ def curves(sample, loops):
 
 
 def off_truth(sample, name, found):
-    """Mean distance of the vertices found to the loop known by construction, in mean edge lengths."""
+    """Return the mean distance from the contour found to the correct loop, in mean edge lengths."""
     if name not in sample.truths:
         return None
     contour, truth = curves(sample, [found, sample.truths[name]])
@@ -178,7 +178,7 @@ def off_truth(sample, name, found):
 
 
 def save(sample, output):
-    """The result as a .blend: rough and found loops as edge attributes, the found ones as seams and selected."""
+    """Save the result as a .blend: rough and found loops as edge attributes, the found ones as seams and selected."""
     mesh = sample.ob.data
     blender_meshes.select_edges(mesh, blender_meshes.read(mesh.edges, "use_seam", 1, bool))
     bpy.context.preferences.filepaths.save_version = 0
@@ -186,7 +186,7 @@ def save(sample, output):
 
 
 def run(output, only):
-    """All contours; gives the lines of the table and the failures."""
+    """Run all contours. Return the rows of the table and the failures."""
     api, mrc = enable_addon()
     rows, failures = [], []
     for sample in samples(only, output):
@@ -194,7 +194,7 @@ def run(output, only):
         for name in sample.loops:
             try:
                 rows.append(run_contour(sample, name, output, api, mrc))
-            except Exception as error:  # the others shall still be run; reported below, and the run fails
+            except Exception as error:  # run the others all the same; the failure is reported at the end
                 traceback.print_exc()
                 failures.append(f"{sample.name}, {name}: {error}")
         save(sample, output)
@@ -206,7 +206,7 @@ def run(output, only):
 
 
 def run_gallery(output, only=None):
-    """The gallery's jobs; gives the lines of the table and the failures."""
+    """Run the gallery's jobs. Return the rows of the table and the failures."""
     rows, failures = [], []
     for job, sample in gallery.JOBS.items():
         if only not in (None, "gallery", job):
@@ -221,7 +221,7 @@ def run_gallery(output, only=None):
 
 
 def draw_gallery(folder, only):
-    """The gallery's pictures, and one of the figures."""
+    """Draw the gallery's pictures, and one of the figures."""
     rows, failures = run_gallery(folder, only)
     if only in (None, "figures"):
         run_figures.draw_selection(folder / "figures.png", enable_addon()[1])
@@ -229,7 +229,7 @@ def draw_gallery(folder, only):
 
 
 def draw_overview(path):
-    """The picture of the README: all loops of a few samples, before and after."""
+    """Draw the picture of the README: all loops of a few samples, before and after."""
     api, mrc = enable_addon()
     pairs = []
     with tempfile.TemporaryDirectory() as folder:
@@ -243,7 +243,7 @@ def draw_overview(path):
 
 
 def overview_pair(sample, words, api, mrc):
-    """All loops of a sample in one small picture."""
+    """Draw all loops of a sample in one small picture."""
     given = list(sample.loops.values())
     found = [
         list(api.optimize_contour(sample.ob, sample.loops[n], **sample.settings[n]).vertices) for n in sample.loops
@@ -257,10 +257,12 @@ def main():
     parser = argparse.ArgumentParser(prog="run_samples.py")
     task = parser.add_mutually_exclusive_group(required=True)
     task.add_argument("--output", type=Path, help="folder for .blend files, pictures and the table")
-    task.add_argument("--overview", type=Path, metavar="PATH", help="draw just the picture of the README")
-    task.add_argument("--gallery", type=Path, metavar="FOLDER", help="draw just the gallery's pictures, there")
-    parser.add_argument("--redraw", action="store_true", help="draw pictures again that have not changed")
-    parser.add_argument("--only", metavar="NAME", help="just this sample or figure")
+    task.add_argument("--overview", type=Path, metavar="PATH", help="draw only the picture of the README")
+    task.add_argument(
+        "--gallery", type=Path, metavar="FOLDER", help="draw only the gallery's pictures, into this folder"
+    )
+    parser.add_argument("--redraw", action="store_true", help="also draw pictures that have not changed")
+    parser.add_argument("--only", metavar="NAME", help="only this sample or figure")
     arguments = parser.parse_args(sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else [])
     stamps.redraw = arguments.redraw
     if arguments.overview:
@@ -275,7 +277,7 @@ def main():
 
 
 def finish(rows, failures):
-    """Prints the table and what failed."""
+    """Print the table and the failures."""
     print("\n".join(report.lines(rows)))
     print(f"{len(rows)} contours done, {len(failures)} failed.", *failures, sep="\n")
     if failures:

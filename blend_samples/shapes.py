@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The made samples' shapes, from Blender's own primitives, modifiers and metaballs. Lengths in centimeters, z up.
+"""Makes the sample shapes from Blender's primitives, modifiers and metaballs. Lengths are in centimeters, z is up.
 
-Every function that makes a sample gives a new mesh object; `hand`'s fingers and `groove_cylinder`'s groove are known by
-construction, so that one can say where a contour ought to land.
+Each function for a sample returns a new mesh object. The fingers of `hand` and the groove of `groove_cylinder` are
+known by construction, and so are the correct contours.
 """
 
 from math import cos, radians, sin
@@ -22,12 +22,12 @@ FINGERS = {
     "thumb": ((3.5, 3.2), 50.0, 5.8, 1.2, 0.85),
 }
 HAND_VOXEL = 0.22  # about the hand's edge length
-KNUCKLE = 1.25  # times the finger's radius: the ball of the palm that the finger leaves
+KNUCKLE = 1.25  # radius of the ball of the palm that the finger leaves, divided by the finger's radius
 GROOVE = {"height": 0.0, "slope": 0.45, "depth": 0.22, "sigma": 0.22}
-# The character's limbs, on its left: places along the axis and radii there, from the body outwards.
+# The limbs on the character's left side: positions along the axis and radii there, from the body outward.
 ARM = (((2.4, 0.0, 11.9), 1.0), ((4.1, 0.1, 10.3), 0.75), ((6.0, -0.2, 8.7), 0.45))
 LEG = (((1.25, 0.0, 7.2), 1.10), ((1.45, -0.1, 4.3), 0.85), ((1.55, 0.1, 1.6), 0.55))
-# Its balls: place and the three radii; those of x > 0 have a twin on the right.
+# Its balls: position and the three radii; those with x > 0 have a twin on the right.
 BODY_BALLS = {
     "belly": ((0.0, 0.0, 8.4), (2.65, 1.9, 2.0)),
     "chest": ((0.0, 0.0, 11.2), (2.0, 1.5, 2.1)),
@@ -38,7 +38,7 @@ BODY_BALLS = {
     "thumb": ((6.15, -0.95, 7.75), (0.35, 0.65, 0.35)),
     "foot": ((1.7, -0.8, 0.65), (0.95, 1.75, 0.75)),
 }
-RAGGED = 0.9  # how far above a finger's base the rough segmentation ends, in the mean
+RAGGED = 0.9  # how far above a finger's base the rough segmentation ends on average
 PART_COLORS = {  # red, green, blue
     "palm": (0.93, 0.84, 0.70),
     "index": (0.88, 0.20, 0.14),
@@ -51,13 +51,13 @@ CYLINDER = {"radius": 2.0, "height": 8.0, "around": 64, "along": 80}
 
 
 def finger_axis(name):
-    """Base point and unit direction of a finger."""
+    """Return the base point and unit direction of a finger."""
     (x, z), angle, *_ = FINGERS[name]
     return Vector((x, 0.0, z)), Vector((sin(radians(angle)), 0.0, cos(radians(angle))))
 
 
 def finger_point(name, part):
-    """The point on a finger's axis at a part of its length; at 0 its cone leaves the ball of its knuckle."""
+    """Return the point on a finger's axis at a fraction of its length; at 0 its cone leaves the ball of its knuckle."""
     base, axis = finger_axis(name)
     length, radius = FINGERS[name][2:4]
     leaves = radius * (KNUCKLE**2 - 1.0) ** 0.5
@@ -65,7 +65,7 @@ def finger_point(name, part):
 
 
 def hand():
-    """Palm: the hull of balls at the knuckles and the wrist. Fingers: cones that only shrink towards a round tip."""
+    """Palm: the hull of balls at the knuckles and the wrist. Fingers: cones that narrow toward a round tip."""
     bm = bmesh.new()
     for name in FINGERS:
         _add_finger(bm, name)
@@ -76,7 +76,7 @@ def hand():
 
 
 def parts_of_hand(points):
-    """For each point "palm" or the name of a finger: that whose surface is nearest, from within or without."""
+    """Return for each point the part whose surface is nearest, from inside or outside: "palm" or a finger's name."""
     hull = bmesh.new()
     _add_palm(hull)
     palm = BVHTree.FromBMesh(hull)
@@ -92,7 +92,7 @@ def _signed_distance(tree, point):
 
 
 def _finger_distance(name, points):
-    """Signed distance to a cone with a round tip; the slant of its side, 3 degrees, is left out."""
+    """Return the signed distance to a cone with a round tip; the slope of its side, 3 degrees, is neglected."""
     base, axis = (np.array(vector) for vector in finger_axis(name))
     length, base_radius, tip_radius = FINGERS[name][2:]
     straight = length - tip_radius
@@ -110,7 +110,7 @@ def _add_finger(bm, name):
 
 
 def _add_cone(bm, joint, following):
-    """Between two joints, each a place and the radius there."""
+    """Add a limb between two joints, each a position and the radius there."""
     (start, radius1), (end, radius2) = joint, following
     axis = Vector(end) - Vector(start)
     turned = Matrix.Translation((Vector(start) + Vector(end)) / 2) @ axis.to_track_quat("Z", "Y").to_matrix().to_4x4()
@@ -142,7 +142,7 @@ def _add_palm(bm):
 
 
 def torso():
-    """A trunk of metaballs with a strong waist, and horizontal grooves pressed in all over by a sine."""
+    """Make a trunk of metaballs with a strong waist and sinusoidal horizontal grooves all over."""
     balls = [((0, 0, 0.5), 5.2, (1.15, 0.8, 0.9)), ((0, 0, 9.5), 5.6, (1.25, 0.8, 0.95))]
     balls += [((0, 0, 5), 3.2, (1.05, 0.8, 1.3))]
     balls += [((side * 5.4, 0, 11.5), 2.6, (1, 1, 1)) for side in (-1, 1)] + [((0, 0, 15), 2.4, (1, 1, 1.2))]
@@ -154,7 +154,7 @@ def torso():
 
 
 def head():
-    """A head with nose, ears, eye hollows and a neck on shoulders, of metaballs."""
+    """Make a head with nose, ears, eye hollows and a neck on shoulders, of metaballs."""
     balls = [
         ((0, 0, 0), 3.6, (0.85, 1.0, 1.05)),
         ((0, -1.0, -1.9), 2.3, (0.95, 1.0, 0.9)),
@@ -168,7 +168,7 @@ def head():
 
 
 def character():
-    """A figure of balls and of limbs that thin out towards wrists and ankles, joined at creases."""
+    """Make a figure of balls and limbs that narrow toward wrists and ankles, joined at creases."""
     bm = bmesh.new()
     _add_cone(bm, ((0.0, 0.0, 12.4), 0.85), ((0.0, 0.0, 14.6), 0.85))
     for place, radii in BODY_BALLS.values():
@@ -190,7 +190,7 @@ def _mirrored(place, side):
 
 
 def hand_parts():
-    """The hand with a material for each part, as a rough segmentation leaves them: ragged and too high up."""
+    """Make the hand with a material for each part, as from a rough segmentation: ragged and too high up."""
     ob = hand()
     ob.name = ob.data.name = "hand_parts"
     for name in ("palm", *FINGERS):
@@ -202,7 +202,7 @@ def hand_parts():
 
 
 def rough_labels(points):
-    """For each point 0 for the palm or the number of its finger, from 1 on."""
+    """Return for each point 0 for the palm, or the number of its finger from 1 on."""
     nearest, labels = parts_of_hand(points), np.zeros(len(points), np.int32)
     for number, name in enumerate(FINGERS, 1):
         base, axis = (np.array(vector) for vector in finger_axis(name))
@@ -228,7 +228,7 @@ NECK = ((1.3, 13.0), (1.2, 13.6), (1.2, 16.0), (1.6, 16.2), (1.6, 17.0), (1.2, 1
 
 
 def bottle():
-    """A lathed bottle of quads: n-gons for its ends, and bricks of six vertices where the label would be."""
+    """Make a lathed bottle of quads, with n-gons for its ends and bricks of six vertices where the label would be."""
     profile = _even_profile(BODY + NECK, 0.22)
     bm = bmesh.new()
     angles = np.linspace(0, 2 * np.pi, 96, endpoint=False)
@@ -252,7 +252,7 @@ def _even_profile(profile, step):
 
 
 def _lay_bricks(bm, around, rows):
-    """Joins two neighboring quads of each row, shifted by one from row to row."""
+    """Merge pairs of neighboring quads in each row, shifted by one from row to row."""
     bm.faces.ensure_lookup_table()
     pairs = [(row * around + i, row * around + (i + 1) % around) for row in rows for i in range(row % 2, around, 2)]
     pairs = [(bm.faces[a], bm.faces[b]) for a, b in pairs]
@@ -261,7 +261,7 @@ def _lay_bricks(bm, around, rows):
 
 
 def groove_cylinder():
-    """A regular quad cylinder with a slanted groove that follows no row of its vertices."""
+    """Make a regular quad cylinder with a slanted groove that follows no row of its vertices."""
     around, along = CYLINDER["around"], CYLINDER["along"]
     angle = np.tile(np.linspace(0, 2 * np.pi, around, endpoint=False), along + 1)
     z = np.repeat(np.linspace(-0.5, 0.5, along + 1) * CYLINDER["height"], around)
@@ -306,13 +306,13 @@ def _apply(ob, kind, **settings):
 
 
 def _remeshed(ob, voxel, smoothing):
-    """One closed surface of even quads; the smoothing rounds the steps of the voxels and the creases between parts."""
+    """Remesh to one closed surface of even quads; smoothing rounds the voxel steps and the creases between parts."""
     _apply(ob, "REMESH", mode="VOXEL", voxel_size=voxel)
     return _apply(ob, "SMOOTH", factor=0.5, iterations=smoothing)
 
 
 def _from_metaballs(name, balls, hollows=()):
-    """Balls and the hollows that they press in: place, radius, and scale of each axis."""
+    """Make metaballs, and negative ones for hollows: position, radius, and scale of each axis."""
     data = bpy.data.metaballs.new(name)
     data.resolution, data.threshold = 0.25, 0.1
     for index, (place, radius, scale) in enumerate([*balls, *hollows]):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures are drawn again only where something in them has changed: a stamp beside each says what it was made of."""
+"""Draws pictures again only if something in them has changed, which is detected by a hash stored next to each."""
 
 import hashlib
 import json
@@ -7,13 +7,13 @@ from pathlib import Path
 
 import numpy as np
 
-redraw = False  # True: whether something has changed or not
+redraw = False  # True: draw pictures even if nothing has changed
 HERE = Path(__file__).resolve().parent
 DRAWN_BY = [HERE / f"{name}.py" for name in ("pictures", "views", "gallery_pictures", "captions", "images", "curves")]
 
 
 def stamp(arrays, words):
-    """Of the arrays and words in a picture, and of the code that draws it."""
+    """Return a hash of the arrays and words in a picture, and of the code that draws it."""
     digest = hashlib.sha256()
     for array in arrays:
         digest.update(np.ascontiguousarray(array).tobytes())
@@ -22,10 +22,10 @@ def stamp(arrays, words):
 
 
 def draw_if_changed(path, made_of, draw):
-    """Calls `draw` unless the picture is there and was made of the same."""
-    beside = path.with_suffix(".sha256")
-    if not redraw and path.exists() and beside.exists() and beside.read_text() == made_of:
+    """Call `draw` unless the picture exists and has the same stamp."""
+    stamp_path = path.with_suffix(".sha256")
+    if not redraw and path.exists() and stamp_path.exists() and stamp_path.read_text() == made_of:
         return
     path.parent.mkdir(parents=True, exist_ok=True)
     draw()
-    beside.write_text(made_of)
+    stamp_path.write_text(made_of)

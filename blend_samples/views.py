@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where the camera of a picture stands: it looks from where most of the contours can be seen."""
+"""Chooses the camera of a picture, so that it sees as much of the contours as possible."""
 
 from dataclasses import dataclass
 
@@ -14,7 +14,7 @@ SAMPLES = 60  # points of each contour that are tried for visibility
 
 @dataclass
 class View:
-    """An orthographic camera: its matrix, the width of its frame, and how deep it must see."""
+    """An orthographic camera: its matrix, the width of its frame, and the distance of its far clip plane."""
 
     matrix: Matrix
     width: float
@@ -22,7 +22,7 @@ class View:
 
 
 def best_view(mesh, curves, up, margin):
-    """Looks along the best direction at a frame `margin` times as wide as the curves."""
+    """Return the view along the best direction, with a frame `margin` times as wide as the curves."""
     mesh.calc_loop_triangles()
     positions = blender_meshes.read(mesh.vertices, "co", 3, np.float64)
     direction = _best_direction(mesh, positions, curves, np.asarray(up, float))
@@ -55,7 +55,7 @@ def _best_direction(mesh, positions, curves, up):
 
 
 def _pieces(curve):
-    """Middles and sides of a curve, the outward normals of its points, and whether it lies on one face of a body."""
+    """Return midpoints, sides and outward normals of a curve, and whether it lies on one face of a body."""
     sides = curve.sides()
     keep = np.linspace(0, len(sides), min(SAMPLES, len(sides)), endpoint=False).astype(int)
     middles = (curve.starts() + sides / 2)[keep]
@@ -64,19 +64,19 @@ def _pieces(curve):
 
 
 def _axis(curve):
-    """The unit normal of a closed curve: its area vector."""
+    """Return the unit normal of a closed curve, the direction of its area vector."""
     points = curve.points - curve.points.mean(axis=0)
     area = np.cross(points, np.roll(points, -1, axis=0)).sum(axis=0)
     return area / max(np.linalg.norm(area), 1e-30)
 
 
 def _goes_round_a_limb(curve):
-    """True where the surface faces away from a closed curve's axis; along it one would only see the limb's end."""
+    """Whether the surface faces away from a closed curve's axis; along the axis one would only see the limb's end."""
     return curve.closed and np.abs(curve.normals @ _axis(curve)).mean() < 0.7
 
 
 def _directions(up, axes):
-    """Directions spread evenly, none from far above or below and none along the axis of a limb."""
+    """Return evenly spread directions, except from far above or below and along the axis of a limb."""
     k = np.arange(DIRECTIONS) + 0.5
     height, turn = 1 - 2 * k / DIRECTIONS, np.pi * (1 + 5**0.5) * k
     flat = np.sqrt(1 - height**2)
@@ -87,7 +87,7 @@ def _directions(up, axes):
 
 
 def _seen(tree, view, size, middles, sides, normals, on_a_face):
-    """The visible part of the projected length; on one face of a body, as far as that looks at the camera."""
+    """Return the visible projected length; on one face of a body, weighted by how directly it faces the camera."""
     length = np.linalg.norm(np.cross(sides, view), axis=1)
     if on_a_face:
         length *= np.clip(normals @ view, 0.0, None)

@@ -27,7 +27,7 @@ TYPES |= {"vertex_index": (np.int32,), "edge_index": (np.int32,)}
 
 
 def changed_cylinder():
-    """A bit of mesh_state."""
+    """Make a cylinder with some hidden, selected and marked elements."""
     obj = grooved_cylinder()
     edit(obj)
     bm = bmesh.from_edit_mesh(obj.data)

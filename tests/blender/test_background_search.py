@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Searches in a thread of their own. Without a window there are no events, so a stand-in for Blender's operator has its
-steps called by hand; what it does to the meshes is real."""
+"""Searches in background threads. Without a window there are no events, so the tests call the steps of a stand-in for
+Blender's operator; its effects on the meshes are real."""
 
 import threading
 from types import SimpleNamespace

@@ -20,7 +20,7 @@ improve_seams = importlib.import_module("improve_seams")
 
 @pytest.fixture
 def files(tmp_path):
-    """A .blend file with a rough seam, a mesh without seams and a second user of the first mesh; and the output path."""
+    """A .blend file with a rough seam, a mesh without seams and a second user of the first mesh; and an output path."""
     obj = grooved_cylinder()
     edit(obj)
     mark_edges(obj, pairs(START), "seam")

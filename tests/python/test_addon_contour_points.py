@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moving points of contours onto vertices: how far they may go, and that no contour comes to touch another."""
+"""Merging points of contours with vertices: how far they move, and that no contour starts to touch another."""
 
 import importlib
 import sys
@@ -14,7 +14,7 @@ contour_points = importlib.import_module("addon.core.contour_points")
 
 
 def contour(*points):
-    """Stations from (a, b, t), each segment in a face of its own."""
+    """Return points from (a, b, t), each segment in its own face."""
     return contour_points.contour_points(
         SimpleNamespace(
             edge_vertices=np.array([point[:2] for point in points]),
@@ -36,7 +36,7 @@ def merged(*contours, closed=True, fraction=0.3):
 FAR = [(1, 2, 0.5), (2, 3, 0.5), (3, 4, 0.5)]
 
 
-def test_a_point_has_one_name():
+def test_a_point_has_a_unique_representation():
     assert places(contour((5, 2, 0.25), (3, 3, 0.0), (7, 4, 1.0))) == [(2, 5, 0.75), (3, 3, 0.0), (4, 4, 0.0)]
 
 
@@ -50,7 +50,7 @@ def test_a_near_point_moves_to_the_nearer_end(t):
     assert merged(contour((8, 9, t), *FAR)) == [[(vertex, vertex, 0.0), *FAR]]
 
 
-def test_points_round_one_vertex_become_one_whose_way_on_is_the_last_one_s():
+def test_points_around_one_vertex_merge_and_keep_the_last_segment():
     given = contour(FAR[0], (8, 9, 0.1), (8, 10, 0.1), (8, 11, 0.1), *FAR[1:])
     (result,) = contour_points.merge_points([given], [True], 0.3)
     assert places(result) == [FAR[0], (8, 8, 0.0), *FAR[1:]]
@@ -68,12 +68,12 @@ def test_a_contour_that_passes_a_vertex_twice_is_not_pinched():
     assert merged(given) == [places(given)]
 
 
-def test_two_contours_do_not_come_to_touch():
+def test_two_contours_do_not_start_to_touch():
     one, two = contour((8, 9, 0.1), *FAR), contour((8, 10, 0.1), (5, 6, 0.5), (6, 7, 0.5))
     assert merged(one, two) == [places(one), places(two)]
 
 
-def test_contours_that_end_in_one_vertex_do_not_keep_points_from_it():
+def test_contours_that_end_at_one_vertex_do_not_block_points_there():
     one, two = contour((8, 8, 0.0), (8, 9, 0.1), *FAR), contour((8, 8, 0.0), (8, 10, 0.1), (5, 6, 0.5), (6, 7, 0.5))
     assert merged(one, two, closed=False) == [[(8, 8, 0.0), *FAR], [(8, 8, 0.0), (5, 6, 0.5), (6, 7, 0.5)]]
 
@@ -101,14 +101,14 @@ def test_repeated_points_are_dropped():
 
 
 def test_no_point_stays_on_an_unsplittable_edge():
-    """It goes to the end that the contour passes next to, even where the other end is nearer."""
+    """It moves to the end that the contour visits next to it, even if the other end is nearer."""
     near, far = contour((8, 8, 0.0), (8, 9, 0.9), *FAR), contour((8, 9, 0.9), *FAR)
     for given, vertex in ((near, 8), (far, 9)):
         (result,) = contour_points.merge_points([given], [True], 0.0, {(8, 9)})
         assert places(result) == [(vertex, vertex, 0.0), *FAR]
 
 
-def test_running_along_an_edge_has_no_stops():
+def test_points_along_an_edge_are_dropped():
     def along(*points, closed=True):
         return places(contour_points.without_points_along_edges(contour(*points), closed))
 

@@ -19,14 +19,14 @@ def test_valleys_are_blue_ridges_red_and_flat_places_nearly_white():
     assert flat[:3].min() == flat[:3].max() > 0.9
 
 
-def test_more_concave_is_never_redder_nor_brighter():
+def test_a_more_concave_color_is_never_redder_or_brighter():
     shades = colors(np.linspace(-3, 0, 50), 1.0)
     assert (np.diff(shades[:, 0]) > 0).all()
     assert (np.diff(shades[:, :3].sum(axis=1)) > 0).all()
 
 
 @pytest.mark.parametrize("quantile", [0.5, 0.9])
-def test_one_spike_does_not_pale_the_rest(quantile, rng):
+def test_one_spike_does_not_fade_the_other_colors(quantile, rng):
     values = rng.normal(size=500)
     plain = colors(values, quantile)
     spiked = colors(np.append(values, -1e6), quantile)
@@ -34,7 +34,7 @@ def test_one_spike_does_not_pale_the_rest(quantile, rng):
     assert np.array_equal(spiked[-1], colors([-1.0], 1.0)[0])
 
 
-def test_size_does_not_matter(rng):
+def test_colors_do_not_depend_on_size(rng):
     values = rng.normal(size=100)
     np.testing.assert_allclose(colors(values, 0.9), colors(1000 * values, 0.9))
 

@@ -18,7 +18,7 @@ AROUND, ROWS, GROOVE, STEP = 32, 21, 10, 0.2
 
 @dataclass
 class Arrays:
-    """As those of a mesh in Blender."""
+    """Arrays like those of a mesh in Blender."""
 
     positions: np.ndarray
     face_offsets: np.ndarray
@@ -27,7 +27,7 @@ class Arrays:
 
 
 def tube(depth, scale=1.0, hidden=()):
-    """Quads round the z axis with a groove round row GROOVE; face r * AROUND + c lies above vertex r * AROUND + c."""
+    """Make quads around the z axis with a groove around row GROOVE; face r * AROUND + c is above the same vertex."""
     rows = np.arange(ROWS)
     radii = 1 - depth * np.exp(-((rows - GROOVE) ** 2) / 2)
     angles = 2 * np.pi * np.arange(AROUND) / AROUND
@@ -42,7 +42,7 @@ def tube(depth, scale=1.0, hidden=()):
 
 
 def lines(arrays, share=1.0):
-    """(n, 2, 3), with the full color at this share of the deepest concavity."""
+    """Return the lines, (n, 2, 3), with the full color at this fraction of the deepest concavity."""
     curvature = mrc.curvature(mrc.Surface(arrays.positions, arrays.face_offsets, arrays.face_vertices))
     full = share * -np.min(curvature.kappa_min)
     return directions.segments(arrays, curvature, full).reshape(-1, 2, 3)
@@ -76,7 +76,7 @@ def test_lines_grow_with_the_mesh():
 
 
 @pytest.mark.parametrize("depth", [0.0, -0.3])
-def test_where_nothing_is_concave_there_is_no_line(depth):
+def test_a_mesh_without_concavity_has_no_lines(depth):
     arrays = tube(depth)
     curvature = mrc.curvature(mrc.Surface(arrays.positions, arrays.face_offsets, arrays.face_vertices))
     found = directions.segments(arrays, curvature, np.abs(curvature.kappa_max).max()).reshape(-1, 2, 3)
@@ -85,7 +85,7 @@ def test_where_nothing_is_concave_there_is_no_line(depth):
     assert depth or not len(found)
 
 
-def test_rounding_on_a_plane_is_no_valley(rng):
+def test_rounding_errors_on_a_plane_are_not_valleys(rng):
     grid = np.stack(np.meshgrid(np.arange(6.0), np.arange(6.0), [0.0]), axis=-1).reshape(-1, 3)
     grid[:, 2] += 1e-6 * rng.normal(size=len(grid))
     low = np.arange(30)[np.arange(30) % 6 < 5]
@@ -94,14 +94,14 @@ def test_rounding_on_a_plane_is_no_valley(rng):
     assert len(lines(arrays)) == 0
 
 
-def test_hidden_vertices_have_none():
+def test_hidden_vertices_have_no_lines():
     hidden = [face for row in range(ROWS - 1) for face in range(row * AROUND, row * AROUND + AROUND // 2)]
     plain, half = lines(tube(0.3)), lines(tube(0.3, hidden=hidden))
     assert 0 < len(half) < len(plain)
     assert (half.mean(axis=1)[:, 1] < 1e-6).all()  # the hidden columns are those of positive y
 
 
-def test_edge_lengths_are_those_round_a_vertex_and_0_for_loose_ones():
+def test_edge_lengths_are_means_around_vertices_and_0_for_loose_ones():
     positions = np.array([(0, 0, 0), (3, 0, 0), (3, 4, 0), (9, 9, 9)], dtype=float)
     arrays = Arrays(positions, np.array([0, 3]), np.array([0, 1, 2]), np.empty(0, dtype=int))
     np.testing.assert_allclose(directions.edge_lengths(arrays), [4.0, 3.5, 4.5, 0.0])

@@ -13,7 +13,7 @@ edge_paths = importlib.import_module("addon.core.edge_paths")
 
 
 def edges_of(pieces):
-    """The edges of all pieces together, as a sorted list of sorted pairs."""
+    """Return the edges of all pieces together, as a sorted list of sorted pairs."""
     return sorted(tuple(sorted(map(int, pair))) for piece in pieces for pair in piece)
 
 
@@ -44,7 +44,7 @@ def test_a_shuffled_chain_comes_back_from_its_lower_end(rng, count):
     np.testing.assert_array_equal(edge_paths.contour_edges(found.chains[0], closed=False)[:, 1], expected[1:])
 
 
-def test_pieces_are_sorted_apart_and_no_edge_is_lost(rng):
+def test_pieces_are_separated_and_no_edge_is_lost(rng):
     for _ in range(50):
         edges = np.unique(np.sort(rng.integers(0, 60, (45, 2)), axis=1), axis=0)
         edges = edges[edges[:, 0] != edges[:, 1]]
@@ -66,7 +66,7 @@ def test_pieces_are_sorted_apart_and_no_edge_is_lost(rng):
         ([(0, 1), (1, 2), (2, 3), (3, 0), (0, 2)], [0, 2]),  # a loop with a chord
     ],
 )
-def test_what_branches_names_its_vertices(edges, branches):
+def test_branching_pieces_name_their_vertices(edges, branches):
     found = edge_paths.sort_edges(edges)
     assert (found.loops, found.chains) == ([], [])
     assert edge_paths.branch_vertices(found.branching[0]).tolist() == branches
@@ -78,7 +78,7 @@ def test_nothing_selected():
 
 
 def grid_border(selected, hidden=()):
-    """Region border on a 3 x 3 grid of quads, as sorted vertex pairs of its 4 x 4 vertices."""
+    """Return the region border on a 3 x 3 grid of quads, as sorted vertex pairs of its 4 x 4 vertices."""
     faces = [[4 * y + x, 4 * y + x + 1, 4 * y + x + 5, 4 * y + x + 4] for y in range(3) for x in range(3)]
     pairs = [tuple(sorted(pair)) for face in faces for pair in zip(face, face[1:] + face[:1])]
     edges = sorted(set(pairs))
@@ -94,7 +94,7 @@ def test_the_border_of_selected_faces():
     assert grid_border(range(9)) == grid_border([]) == []
 
 
-def test_hidden_faces_are_as_if_they_were_not_there():
+def test_hidden_faces_count_as_missing():
     assert grid_border([4], hidden=[5]) == [(5, 6), (5, 9), (9, 10)]
 
 
@@ -129,7 +129,7 @@ def as_set(edges):
     return {frozenset(pair) for pair in np.asarray(edges).tolist()}
 
 
-def test_mirror_images_are_added_turned_round():
+def test_mirror_images_are_added_in_reverse():
     edges = np.array([[3, 4], [4, 9]])
     assert edge_paths.with_mirror_images(edges, GRID, GRID_EDGES).tolist() == [[3, 4], [4, 9], [0, 1], [5, 0]]
 
@@ -140,13 +140,13 @@ def test_a_half_on_the_mirror_plane_becomes_whole():
     assert len(edge_paths.sort_edges(both).loops) == 1
 
 
-def test_what_is_symmetric_already_stays():
+def test_a_symmetric_selection_is_unchanged():
     both = edge_paths.with_mirror_images(np.array([[0, 1], [3, 4], [2, 7]]), GRID, GRID_EDGES)
     assert as_set(both) == {frozenset(pair) for pair in ((0, 1), (3, 4), (2, 7))}
     assert len(both) == 3
 
 
-def test_no_image_where_the_mesh_is_not_symmetric():
+def test_an_asymmetric_mesh_has_no_images():
     edges = np.array([[3, 4]])
     moved = GRID + np.where(np.arange(20) == 0, 0.01, 0.0)[:, None]
     assert edge_paths.with_mirror_images(edges, moved, GRID_EDGES) is None
@@ -154,5 +154,5 @@ def test_no_image_where_the_mesh_is_not_symmetric():
     assert edge_paths.with_mirror_images(edges, GRID, fewer) is None
 
 
-def test_no_image_that_would_make_a_contour_branch():
+def test_images_that_would_make_a_contour_branch_are_refused():
     assert edge_paths.with_mirror_images(np.array([[1, 2], [2, 7]]), GRID, GRID_EDGES) is None

@@ -25,7 +25,7 @@ DRAWING = {"bgl", "blf", "gpu", "gpu_extras", "bl_ui", "bl_operators"}
 
 
 def layer(module):
-    """The folder of a module, or its own name at the root; modules are tuples of names below the add-on."""
+    """Return the folder of a module, or its own name at the root; modules are tuples of names below the add-on."""
     return module[0] if module else "__init__"
 
 
@@ -35,7 +35,7 @@ def name_of(path):
 
 
 def imports(path, text=None):
-    """The add-on's modules that a source imports, as tuples of names, and the foreign packages."""
+    """Return the add-on's modules that a source imports, as tuples of names, and the foreign packages."""
     package = path.relative_to(ADDON).parts[:-1]
     own, foreign = set(), set()
     for node in ast.walk(ast.parse(text or path.read_text(encoding="utf-8"))):
@@ -54,7 +54,7 @@ def imports(path, text=None):
 
 
 def offenses(path, text=None):
-    """What a source imports against the law."""
+    """Return the imports of a source that break the law."""
     own, foreign = imports(path, text)
     here = layer(name_of(path))
     bad = {".".join(module) for module in own if layer(module) not in MAY_IMPORT[here]}
@@ -67,7 +67,7 @@ def test_imports_go_from_ui_to_mesh_to_core(path):
     assert offenses(path) == []
 
 
-def test_what_would_be_noticed():
+def test_offenses_are_detected():
     core, mesh, ui = (ADDON / name / "a.py" for name in ("core", "mesh", "ui"))
     assert offenses(core, "from . import native\nimport numpy") == []
     assert offenses(core, "def f():\n    import bpy") == ["bpy"]
@@ -85,7 +85,7 @@ def test_there_are_three_folders_and_none_within_them():
     assert all((ADDON / folder / "__init__.py").is_file() for folder in ("core", "mesh", "ui"))
 
 
-def test_nothing_imports_in_a_circle():
+def test_there_are_no_import_cycles():
     graph = {name_of(path): imports(path)[0] for path in SOURCES}
     done = set()
 

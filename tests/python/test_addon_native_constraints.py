@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From layers as arrays to the constraints of native calls, without Blender."""
+"""Converting layers to the constraints of native calls, without Blender."""
 
 import importlib
 import sys
@@ -32,7 +32,7 @@ def constraints(mesh, **fields):
 
 
 def felt(rows, place, points):
-    """What attractors add up to at a place (4.5), straight through space."""
+    """Return the sum of the attractors at a point (4.5), with straight distances."""
     squares = ((points[rows[:, 0].astype(int)] - place) ** 2).sum(axis=1)
     return (rows[:, 2] * np.exp(-squares / (2 * (rows[:, 1] / 2) ** 2)))[squares <= rows[:, 1] ** 2].sum()
 
@@ -40,7 +40,7 @@ def felt(rows, place, points):
 @pytest.mark.parametrize("dense", [0.02, 0.1, 0.24])
 @pytest.mark.parametrize("plane", [False, True])
 def test_the_pull_of_a_painted_place_is_its_weight_however_dense_the_mesh(dense, plane):
-    """Inside a line or a patch painted evenly; at the corners there are fewer to share."""
+    """This holds inside an evenly painted line or patch; at corners fewer attractors contribute."""
     steps = np.arange(-2.0, 2.0 + dense, dense)
     points = np.array([(x, y, 0.0) for x in steps for y in (steps if plane and dense > 0.05 else [0.0])])
     rows = arrays.attractors(points, np.arange(len(points)), np.full(len(points), 0.6), 1.0, 5.0)
@@ -56,7 +56,7 @@ def test_the_pull_is_proportional_to_strength_and_weight(rng):
     np.testing.assert_allclose(two[:, 2], -1.5 * one[:, 2])
 
 
-def test_attractors_are_apart_and_every_painted_place_is_near_one(rng):
+def test_attractors_keep_a_distance_and_every_painted_vertex_is_near_one(rng):
     points, weights = rng.uniform(0, 2, (300, 3)), rng.uniform(0.1, 1.0, 300)
     rows = arrays.attractors(points, np.arange(300), weights, 0.8, 1.0)
     kept = rows[:, 0].astype(int)
@@ -68,12 +68,12 @@ def test_attractors_are_apart_and_every_painted_place_is_near_one(rng):
         assert weights[kept][distances[vertex] <= 0.4].max() >= weights[vertex]
 
 
-def test_nothing_painted_near_is_no_attractor():
+def test_without_paint_nearby_there_is_no_attractor():
     none = np.empty(0, dtype=int)
     assert arrays.attractors(np.zeros((3, 3)), none, np.empty(0), 1.0, 1.0).shape == (0, 3)
 
 
-def test_required_vertices_go_to_the_nearest_contour_whose_band_has_them():
+def test_required_vertices_go_to_the_nearest_contour_whose_band_contains_them():
     points = np.array([(x, 0.0, 0.0) for x in range(10)])
     contours = [np.array([0, 1]), np.array([6, 7])]
     bands = [np.arange(0, 6), np.arange(4, 10)]
@@ -89,8 +89,8 @@ def test_required_vertices_go_to_the_nearest_contour_whose_band_has_them():
 
 
 @pytest.mark.parametrize("width", [1, 3])
-def test_outside_is_what_the_native_module_refuses(width):
-    """Vertex for vertex: the message comes before the search, and says of all what the module says of the first."""
+def test_vertices_outside_the_band_are_those_that_the_native_module_refuses(width):
+    """The message comes before the search, and says of all vertices what the module says of the first."""
     mesh = tube()
     surface, contour = surface_of(mesh), ring(6)
     options = parameters.native_options(width=width, reach=0.0)
@@ -121,7 +121,7 @@ def test_attractors_reach_as_far_as_the_iterations(iterations):
     assert sorted(rows[:, 0].astype(int)) == reached.tolist()
 
 
-def test_marks_along_the_given_contour_do_not_count():
+def test_marks_along_the_given_contour_are_ignored():
     mesh = tube()
     along, others = np.stack([ring(6), np.roll(ring(6), -1)], axis=1), np.stack([ring(8), np.roll(ring(8), -1)], axis=1)
     marks = np.concatenate([along[:, ::-1], others])

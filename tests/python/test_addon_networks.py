@@ -21,7 +21,7 @@ edge_paths = importlib.import_module("addon.core.edge_paths")
 
 
 def topology_of(mesh, hidden_faces=()):
-    """What Blender's arrays would be for this mesh, with its edges in a scrambled order and direction."""
+    """Return the topology of a mesh whose edges have random order and direction, as from Blender's arrays."""
     corners = [pair for face in mesh.faces for pair in zip(face, face[1:] + face[:1])]
     rng = np.random.default_rng(len(corners))
     edges = rng.permuted(rng.permutation(mesh.real_edges()), axis=1)
@@ -38,7 +38,7 @@ def centers(mesh):
 
 
 def nearest_seed(rng, mesh, count):
-    """Ragged regions: each face goes to the nearest of some of the faces, with noise."""
+    """Return ragged regions: each face belongs to the nearest of some seed faces, with noise."""
     places = centers(mesh)
     seeds = places[rng.choice(len(places), count, replace=False)]
     distances = np.linalg.norm(places[:, None] - seeds, axis=2)
@@ -78,7 +78,7 @@ networks_of_labels = pytest.mark.parametrize(
 
 
 def edge_faces(mesh):
-    """By sorted vertex pair, the faces that use the edge: the slow way."""
+    """Return the faces of each edge by sorted vertex pair, with a slow but simple loop."""
     found = {}
     for i, face in enumerate(mesh.faces):
         for pair in zip(face, face[1:] + face[:1]):
@@ -162,7 +162,7 @@ def test_chains_do_not_depend_on_the_order_of_the_edges():
     )
 
 
-def test_chosen_edges_are_chains_of_their_own():
+def test_chosen_edges_form_separate_chains():
     topology = topology_of(meshes.tube(np.ones(6), 12))
     ring = 2 * 12 + np.arange(12)
     marked, chosen = np.zeros((2, len(topology.edges)), dtype=bool)
@@ -209,7 +209,7 @@ def test_regions_are_the_connected_pieces_of_labels(mesh, labels, hidden):
 
 
 @networks_of_labels
-def test_nothing_moves_nothing_changes(mesh, labels, hidden):
+def test_regions_are_unchanged_if_nothing_moves(mesh, labels, hidden):
     topology = topology_of(mesh, hidden)
     borders = topology_module.label_borders(topology, labels)
     chains = chains_module.find_chains(topology, borders)
@@ -238,7 +238,7 @@ def hidden_mask(topology):
 
 
 def piece_labels(topology, labels):
-    """For each label, in how many connected pieces it lies."""
+    """Return for each label its number of connected pieces."""
     roots = np.unique(topology_module.regions(topology, topology_module.label_borders(topology, labels)))
     return Counter(labels[roots].tolist())
 
@@ -268,8 +268,8 @@ def test_labels_follow_the_borders(mesh, labels, hidden):
     assert set(moved).isdisjoint(plan.region_check.lost)
 
 
-def test_most_of_them_move_and_few_are_refused():
-    """Otherwise nothing above would be worth much."""
+def test_most_chains_move_and_few_are_refused():
+    """Otherwise the tests above would prove little."""
     moved = lost = total = problems = 0
     for _, mesh, labels, hidden in CASES[:8]:
         topology = topology_of(mesh, hidden)
@@ -284,7 +284,7 @@ def test_most_of_them_move_and_few_are_refused():
 
 
 def two_columns():
-    """A sheet in three regions, parted by two straight lines, and their chains."""
+    """Make a sheet with three regions separated by two straight lines, and their chains."""
     mesh = meshes.polygon_mesh(*open_sheet(6, 11))
     topology = topology_of(mesh)
     column = np.arange(50) % 10
@@ -298,7 +298,7 @@ def line_at(column):
 
 
 def checked(lines):
-    """Which of the lines at columns 3 and 6 are taken where they would go, and the labels along the sheet."""
+    """Return which of the lines at columns 3 and 6 may move to the given columns, and the labels along the sheet."""
     topology, labels, borders, chains = two_columns()
     paths = [
         None if lines[chain.vertices[0] % 11] is None else line_at(lines[chain.vertices[0] % 11]) for chain in chains
@@ -312,7 +312,7 @@ def checked(lines):
     return taken, region_check.lost, labels[region_check.after].reshape(5, 10)
 
 
-def test_labels_lie_on_the_side_of_the_line_where_they_lay():
+def test_labels_stay_on_their_side_of_the_line():
     taken, lost, labels = checked({3: 2, 6: 8})
     assert (taken, lost) == ({3: True, 6: True}, {})
     assert (labels == [0, 0, 1, 1, 1, 1, 1, 1, 2, 2]).all()
@@ -326,7 +326,7 @@ def test_a_region_that_would_vanish_keeps_its_borders():
     assert (labels == [0, 0, 0, 1, 1, 1, 2, 2, 2, 2]).all()
 
 
-def test_lines_that_change_places_stay():
+def test_lines_that_would_change_places_stay():
     taken, _, labels = checked({3: 8, 6: 2})
     assert taken == {3: False, 6: False}
     assert (labels == [0, 0, 0, 1, 1, 1, 2, 2, 2, 2]).all()
@@ -339,8 +339,8 @@ def test_a_line_along_the_border_stays_and_the_other_one_moves():
     assert (labels == [0, 0, 0, 1, 1, 1, 1, 2, 2, 2]).all()
 
 
-def test_only_the_line_that_tears_a_region_stays():
-    """The line at column 3 would touch the border beside it, which cuts a corner off the middle region."""
+def test_only_the_line_that_would_split_a_region_stays():
+    """The line at column 3 would touch the neighboring border, which would cut a corner off the middle region."""
     topology, labels, borders, chains = two_columns()
     bent = np.array([3, 14, 25, 26, 15, 4, 5, 16, 27, 38, 49, 60])
     paths = [bent if chain.vertices[0] % 11 == 3 else line_at(7) for chain in chains]
@@ -350,7 +350,7 @@ def test_only_the_line_that_tears_a_region_stays():
 
 
 def test_a_line_that_would_join_regions_stays():
-    """The line at column 3 would end on the sheet."""
+    """The line at column 3 would end inside the sheet."""
     topology, labels, borders, chains = two_columns()
     paths = [line_at(3)[:4] if chain.vertices[0] % 11 == 3 else None for chain in chains]
     region_check = region_check_module.check_regions(topology, borders, chains, paths)
@@ -360,7 +360,7 @@ def test_a_line_that_would_join_regions_stays():
 
 
 def taken_ends(plan):
-    """The vertices at the ends of what moves to new places."""
+    """Return the end vertices of the chains that move."""
     return sorted(v for v, count in Counter(plan.new_edges().ravel().tolist()).items() if count == 1)
 
 
@@ -373,8 +373,8 @@ def taken_ends(plan):
         "on the border at a hidden face": ([(5, 6, 21), (6, 22, 21)], [105], 6),
     }.values(),
 )
-def test_an_end_slides_unless_hidden_faces_are_beside_it(faces, hidden, end):
-    """The line at column 6 goes into the groove at column 8, from its lower end on or from where it is held."""
+def test_an_end_slides_unless_it_is_next_to_hidden_faces(faces, hidden, end):
+    """The line at column 6 moves into the groove at column 8, including its lower end unless that is held."""
     positions, sheet = open_sheet(8, 16)
     sheet = [tuple(face) for face in np.asarray(sheet).tolist()]
     places = [face for face in sheet if not faces or face[0] != 5 or set(face) != {5, 6, 21, 22}]
@@ -388,7 +388,7 @@ def test_an_end_slides_unless_hidden_faces_are_beside_it(faces, hidden, end):
 
 
 def three_strips():
-    """A sheet with a groove at column 8, parted by straight lines at columns 6 and 12."""
+    """Make a sheet with a groove at column 8, divided by straight lines at columns 6 and 12."""
     mesh = meshes.polygon_mesh(*open_sheet(8, 16))
     column = np.arange(7 * 15) % 15
     topology = topology_of(mesh)
@@ -404,7 +404,7 @@ def test_seams_along_the_border_of_the_mesh_change_nothing():
 
 
 def test_only_chosen_chains_move():
-    """Both would: the line at column 12 is bent by hand before."""
+    """Both chains could move: the line at column 12 is bent by hand first."""
     mesh, topology, marked = three_strips()
     bent = np.array([12, 28, 29, 45, 44, 60, 76, 92, 108, 124])
     straight = topology.find(edge_paths.contour_edges(np.arange(8) * 16 + 12, closed=False))[0]
@@ -418,7 +418,7 @@ def test_only_chosen_chains_move():
     assert moved == [[0, 1], [0], [1]]
 
 
-def test_what_cannot_be_searched_is_named_and_a_barrier_to_the_others(monkeypatch):
+def test_chains_that_cannot_be_searched_are_reported_and_act_as_barriers(monkeypatch):
     mesh, topology, marked = three_strips()
     module, barriers = networks.native.module(), []
 
@@ -440,8 +440,8 @@ def test_what_cannot_be_searched_is_named_and_a_barrier_to_the_others(monkeypatc
     assert sorted(as_pairs(barriers)) == [(12 + 16 * y, 28 + 16 * y) for y in range(7)]
 
 
-def test_contours_at_vertices_that_are_not_manifold_are_named():
-    """Two tetrahedra that share a vertex, a seam through it; and a sheet whose seam moves all the same."""
+def test_contours_through_nonmanifold_vertices_are_reported():
+    """Two tetrahedra share a vertex on a seam; the seam of a sheet in the same mesh still moves."""
     positions, sheet = open_sheet(8, 16)
     base = len(positions)
     corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (-1, 0, 0), (0, -1, 0), (0, 0, -1)]

@@ -17,7 +17,7 @@ native = importlib.import_module("addon.core.native")
 
 
 def choices(row):
-    """The values of a setting that a user can reach, at least the extreme ones."""
+    """Return values of a setting that a user can choose, including the extremes."""
     if "items" in row:
         return [item[0] for item in row["items"]]
     return [row["min"], row.get("max", row.get("soft_max"))] if "min" in row else [False, True]
@@ -39,7 +39,7 @@ def test_no_setting_is_dead(name):
     assert parameters.native_options(**{name: other}, **others) != parameters.native_options(**others)
 
 
-def test_without_refinement_nothing_goes_before_the_iterations():
+def test_without_refinement_there_are_no_regular_iterations():
     assert parameters.native_options(regular_iterations=5)["regular_iterations"] == 0
 
 
@@ -48,13 +48,13 @@ def test_the_whole_surface_has_no_width():
     assert parameters.native_options(width=7)["width"] == 7
 
 
-def test_an_unknown_setting_is_named():
+def test_an_unknown_setting_is_refused_by_name():
     with pytest.raises(TypeError, match="widht"):
         parameters.native_options(widht=4)
 
 
 def versions(addon):
-    """What the manifest and the add-on's own dictionary in a folder say."""
+    """Return the versions in the manifest and in bl_info of a folder."""
     manifest = (addon / "blender_manifest.toml").read_text(encoding="utf-8")
     (version,) = re.findall(r'^version = "(.*)"', manifest, re.MULTILINE)  # Python 3.10 has no tomllib
     (info,) = (
@@ -83,19 +83,19 @@ def test_the_module_is_found():
     assert native.problem() == ""
 
 
-def test_a_missing_module_is_explained(monkeypatch):
+def test_a_missing_module_is_reported(monkeypatch):
     monkeypatch.setitem(sys.modules, "mrcontour", None)
     assert "its source, without the compiled library" in native.problem()
 
 
-def test_a_module_for_another_python_is_explained(monkeypatch, tmp_path):
+def test_a_module_for_another_python_is_reported(monkeypatch, tmp_path):
     (tmp_path / "mrcontour.cpython-399-x86_64-linux-gnu.so").touch()
     monkeypatch.setattr(native, "__file__", str(tmp_path / "core" / "native.py"))
     monkeypatch.setitem(sys.modules, "mrcontour", None)
     assert "cpython-399" in native.problem()
 
 
-def test_a_module_that_does_not_load_is_explained(monkeypatch, tmp_path):
+def test_a_module_that_does_not_load_is_reported(monkeypatch, tmp_path):
     (tmp_path / "mrcontour.py").write_text("import a_module_that_is_not_there")
     monkeypatch.delitem(sys.modules, "mrcontour")
     monkeypatch.syspath_prepend(tmp_path)

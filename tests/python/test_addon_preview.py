@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What keys make of the settings of the modal operator, and the previews that it shows, without Blender."""
+"""The effect of keys on the settings of the modal operator, and the previews that it shows, without Blender."""
 
 import importlib
 import sys
@@ -33,7 +33,7 @@ def after(state, *commands):
 
 
 @given(st.lists(st.sampled_from(COMMANDS), max_size=60))
-def test_whatever_is_pressed_the_settings_are_valid(commands):
+def test_no_key_makes_the_settings_invalid(commands):
     state = after(start(), *commands)
     mrc.Options(**parameters.native_options(**state.settings))
     assert state.output in preview_state.OUTPUTS
@@ -50,7 +50,7 @@ def test_no_command_is_dead(command):
     [("WIDER", "NARROWER"), ("FINER", "COARSER"), ("SHORTER", "LONGER"), ("NEXT_OUTPUT", "LAST_OUTPUT")]
     + [(command, command) for command in ("REACH", "WHOLE_SURFACE")],
 )
-def test_every_step_can_be_taken_back(there, back):
+def test_every_step_can_be_reverted(there, back):
     state = start(reach=0.3)
     assert after(state, there, back) == state
 
@@ -76,7 +76,7 @@ def test_the_wheel_leaves_the_whole_surface():
     assert state.settings["width"] == DEFAULTS["width"]
 
 
-def test_outputs_come_round():
+def test_outputs_wrap_around():
     assert after(start(), *["NEXT_OUTPUT"] * len(preview_state.OUTPUTS)) == start()
 
 
@@ -127,7 +127,7 @@ def test_the_header_says_what_the_keys_change():
     ("commands", "wider"),
     [(["WIDER"], True), (["NARROWER"], False), (["FINER"], False), (["REACH", "WIDER"], False)],
 )
-def test_the_reach_may_hold_only_a_wider_band(commands, wider):
+def test_the_reach_can_limit_only_a_wider_band(commands, wider):
     before = state = start(width=5)
     for command in commands:
         before, state = state, preview_state.changed(state, command)
@@ -140,7 +140,7 @@ SEGMENTS, RINGS, GROOVE = 24, 17, 10
 
 
 def cylinder():
-    """Arrays of an open cylinder round the z axis with a groove, of quads whose every second row is of triangles."""
+    """Make the arrays of an open grooved cylinder around the z axis; rows of quads and of triangles alternate."""
     rows, angles = np.arange(RINGS), 2 * np.pi * np.arange(SEGMENTS) / SEGMENTS
     radii = 1 - 0.3 * np.exp(-((rows - GROOVE) ** 2) / 2)
     points = [(r * np.cos(a), r * np.sin(a), 0.25 * row) for row, r in zip(rows, radii) for a in angles]
@@ -165,7 +165,7 @@ def ring(row):
 
 
 def made(*rows):
-    """A preview of rings of the cylinder."""
+    """Make a preview of rings of the cylinder."""
     arrays = cylinder()
     outcomes = [SimpleNamespace(vertices=ring(row), closed=True, result=None) for row in rows]
     return preview.Preview(arrays, mrc.Surface(**vars(arrays)), outcomes)
@@ -204,7 +204,7 @@ def test_what_is_drawn_is_the_band_and_the_contours():
     assert np.array_equal(shapes.pins, arrays.positions[[(GROOVE - 1) * SEGMENTS]].astype(np.float32))
 
 
-def test_pins_are_passed_each_by_its_own_contour():
+def test_each_contour_passes_its_own_pins():
     shown = made(3, GROOVE + 3)
     pins = [(0, 4 * SEGMENTS + 2), (1, (GROOVE + 2) * SEGMENTS + 9)]
     state = preview_state.State.start(DEFAULTS | {"width": 3, "reach": 0.0}, "SELECT", pins)
@@ -213,7 +213,7 @@ def test_pins_are_passed_each_by_its_own_contour():
         assert vertex in shown.outcomes[contour].result.vertices
 
 
-def test_a_pin_outside_the_band_leaves_the_band_and_no_result():
+def test_a_pin_outside_the_band_gives_a_band_and_no_result():
     shown, state = (
         made(GROOVE - 3),
         start(width=1).toggled(0, 16 * SEGMENTS).toggled(0, 15 * SEGMENTS).toggled(0, (GROOVE - 3) * SEGMENTS),
@@ -240,7 +240,7 @@ def test_a_click_finds_the_nearest_vertex_in_front(rng):
         assert hit[0] == pytest.approx(3, abs=0.05)
 
 
-def test_a_click_beside_the_band_finds_nothing():
+def test_a_click_outside_the_band_finds_nothing():
     shown = made(GROOVE - 3)
     shown.search(start(width=1))
     assert shown.pick((5.0, 0.0, 3.9), (-1.0, 0.0, 0.0)) is None

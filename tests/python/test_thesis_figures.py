@@ -25,7 +25,7 @@ def mesh_of(name, **keywords):
 
 def run(figure, mesh, search, flow, **more):
     options = mrc.Options(**{**search.options, "flow": flow, **more})
-    return mrc.optimize(surface_of(mesh), search.given, closed=search.closed, options=options, **search.wishes)
+    return mrc.optimize(surface_of(mesh), search.given, closed=search.closed, options=options, **search.constraints)
 
 
 def results(name, flow):
@@ -379,7 +379,7 @@ def outside_face(points):
 def test_5_6_three_vertices_hold_the_contour_on_the_chin(flow):
     figure, mesh, found = results("5.6", flow)
     free, held = found.values()
-    required = figure.searches[1].wishes["required_vertices"]
+    required = figure.searches[1].constraints["required_vertices"]
     assert len(required) == 3
     half_way = figures.NECK[0] / 2
     assert outside_face(free.positions).max() > figures.NECK[0] - 1
