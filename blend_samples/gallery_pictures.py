@@ -37,19 +37,19 @@ class Panel:
     curves: list = field(default_factory=list)  # drawn in black
 
 
-def draw_if_changed(path, palette, panels, towards, up=(0, 0, 1)):
-    """Draw a PNG, unless it is up to date. `towards` is the direction from the mesh to the camera."""
+def draw_if_changed(path, palette, panels, toward, up=(0, 0, 1)):
+    """Draw a PNG, unless it is up to date. `toward` is the direction from the mesh to the camera."""
     pieces = [piece for panel in panels for piece in panel.pieces]
     curves = [curve.points for panel in panels for curve in panel.curves]
     arrays = [blender_meshes.polygons(piece.mesh).vertices for piece in pieces] + curves
     arrays += [array for piece in pieces for array in (piece.positions(), piece.colors)]
-    made_of = stamps.stamp([*arrays, np.array(palette), np.array(towards)], [panel.words for panel in panels])
-    stamps.draw_if_changed(path, made_of, lambda: draw(path, palette, panels, towards, up))
+    made_of = stamps.stamp([*arrays, np.array(palette), np.array(toward)], [panel.words for panel in panels])
+    stamps.draw_if_changed(path, made_of, lambda: draw(path, palette, panels, toward, up))
 
 
-def draw(path, palette, panels, towards, up):
+def draw(path, palette, panels, toward, up):
     with pictures.scratch():
-        view, aspect = _common_view(panels, np.asarray(towards, float), up)
+        view, aspect = _common_view(panels, np.asarray(toward, float), up)
         size = (round(HEIGHT * aspect), HEIGHT)
         materials = [images.material("part", color) for color in palette]
         drawn = pictures.joined([_render(panel, view, size, materials) for panel in panels], axis=1)
@@ -59,16 +59,16 @@ def draw(path, palette, panels, towards, up):
         images.save(np.round(whole * pictures.SHADES) / pictures.SHADES, path)
 
 
-def _common_view(panels, towards, up):
+def _common_view(panels, toward, up):
     """Return a camera that sees the pieces of all panels, and the aspect ratio of its frame."""
-    towards = towards / np.linalg.norm(towards)
-    right, top = views.frame(towards, up)
+    toward = toward / np.linalg.norm(toward)
+    right, top = views.frame(toward, up)
     positions = np.concatenate([piece.positions() for panel in panels for piece in panel.pieces])
-    low, high = (bound(positions @ np.stack([right, top, towards], axis=1), axis=0) for bound in (np.min, np.max))
+    low, high = (bound(positions @ np.stack([right, top, toward], axis=1), axis=0) for bound in (np.min, np.max))
     width, height, depth = MARGIN * (high - low)
     middle = (low + high) / 2
-    matrix = Matrix(np.stack([right, top, towards], axis=1).tolist()).to_4x4()
-    matrix.translation = Vector(middle[0] * right + middle[1] * top + (high[2] + depth) * towards)
+    matrix = Matrix(np.stack([right, top, toward], axis=1).tolist()).to_4x4()
+    matrix.translation = Vector(middle[0] * right + middle[1] * top + (high[2] + depth) * toward)
     return views.View(matrix, max(width, height), 3 * depth), width / height
 
 

@@ -51,7 +51,7 @@ OVERVIEW = {  # the samples in the README's picture, with their captions
 
 @dataclass
 class Sample:
-    """A mesh object with its rough loops: name -> vertices in order, and name -> settings besides the defaults."""
+    """A mesh object with its rough loops (name -> vertices in order) and their settings (name -> non-default settings)."""
 
     name: str
     ob: bpy.types.Object

@@ -6,7 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-MIN_SEPARATION = 1e-5  # fraction of an edge; Blender's 32-bit positions cannot tell a closer point from the vertex
+MIN_SEPARATION = (
+    1e-5  # fraction of an edge; Blender's 32-bit positions hardly distinguish a closer point from the vertex
+)
 
 
 @dataclass(frozen=True)
@@ -121,5 +123,5 @@ def _simplified(moved, given, closed):
 def _without_repeats(contour, closed):
     """Drop all but the last of consecutive equal points: the last one has the face of the segment that follows."""
     following = contour[1:] + contour[:1]
-    kept = [point for point, after in zip(contour, following) if point.place != after.place]
-    return kept if closed else kept + contour[-1:] * (not kept or kept[-1] is not contour[-1])
+    distinct = [point for point, after in zip(contour, following) if point.place != after.place]
+    return distinct if closed else distinct + contour[-1:] * (not distinct or distinct[-1] is not contour[-1])

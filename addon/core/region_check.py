@@ -27,8 +27,8 @@ class _Line:
     left: np.ndarray
     right: np.ndarray
 
-    def touches(self, labels, wanted):
-        return bool(wanted) and bool(wanted & self.labels_along(labels))
+    def touches(self, labels, some):
+        return bool(some) and bool(some & self.labels_along(labels))
 
     def labels_along(self, labels):
         return {*labels[self.left].tolist(), *labels[self.right].tolist()}

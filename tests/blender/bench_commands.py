@@ -2,12 +2,12 @@
 """Times whole commands on a million triangles against what Blender itself needs to hand over the mesh.
 
 blender -b --factory-startup --python-exit-code 1 --python tests/blender/bench_commands.py [-- REPETITIONS [OUTPUT...]]
-python tests/blender/bench_commands.py [-- REPETITIONS]          where the bpy wheel is installed
+python tests/blender/bench_commands.py [-- REPETITIONS]          if the bpy wheel is installed
 
-The add-on is found in BLENDER_USER_SCRIPTS. Commands that leave the faces as they are should cost at most 1.5 times
-`update_from_editmode` and the arrays together, as properties hand them over: that is 1 in the last column. "first"
-builds the Surface, "redo" has it kept. Everything is measured in turn, as often as asked; before each measurement the
-mesh is made as it was. Outputs that are named are measured alone.
+The add-on must be in BLENDER_USER_SCRIPTS. The unit of the last column is the time of `update_from_editmode` and of
+reading the arrays from properties. Commands that do not change faces should take at most 1.5 of it. "first" builds the
+Surface, "redo" finds it in the cache. Everything is measured in turn, so many times; the mesh is restored before each
+measurement. If outputs are named, only these are measured.
 """
 
 import sys

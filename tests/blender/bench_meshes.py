@@ -38,16 +38,16 @@ def milliseconds(call, *arguments, **keywords):
 
 def _wall():
     low = np.arange(ROWS * COLUMNS).reshape(ROWS, COLUMNS)
-    beside = np.roll(low, -1, axis=1)
-    return np.stack([low, beside, beside + COLUMNS, low, beside + COLUMNS, low + COLUMNS], -1).reshape(-1, 3)
+    following = np.roll(low, -1, axis=1)
+    return np.stack([low, following, following + COLUMNS, low, following + COLUMNS, low + COLUMNS], -1).reshape(-1, 3)
 
 
 def _caps():
     """Return the fans around the two tips, whose vertices come after all others."""
     column, top, tip = np.arange(COLUMNS), ROWS * COLUMNS, (ROWS + 1) * COLUMNS
-    beside = np.roll(column, -1)
-    yield np.stack([beside, column, np.full(COLUMNS, tip)], -1)
-    yield np.stack([top + column, top + beside, np.full(COLUMNS, tip + 1)], -1)
+    following = np.roll(column, -1)
+    yield np.stack([following, column, np.full(COLUMNS, tip)], -1)
+    yield np.stack([top + column, top + following, np.full(COLUMNS, tip + 1)], -1)
 
 
 def _mesh(name, points, triangles):

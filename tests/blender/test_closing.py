@@ -151,5 +151,5 @@ def test_undo_and_redo():
 
 def test_the_tooltip_says_what_it_does():
     close = bpy.ops.mesh.optimize_contour.get_rna_type().properties["close"]
-    assert "round the limb" in close.description
+    assert "around the limb" in close.description
     assert not close.default

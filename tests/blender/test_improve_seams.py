@@ -118,13 +118,13 @@ def test_unknown_settings_are_refused(files, monkeypatch):
 @pytest.mark.parametrize("name", ["minimum_ratio_contours", "bl_ext.user_default.minimum_ratio_contours"])
 @pytest.mark.parametrize("enabled", [False, True])
 def test_both_kinds_of_installation_are_found(name, enabled, monkeypatch):
-    asked = []
+    enabled_modules = []
     others = [SimpleNamespace(__name__=other) for other in ("io_scene_fbx", name, "not_minimum_ratio_contours")]
     monkeypatch.setattr(improve_seams.addon_utils, "modules", lambda: others)
     monkeypatch.setattr(improve_seams.addon_utils, "check", lambda _: (enabled, enabled))
-    monkeypatch.setattr(improve_seams.addon_utils, "enable", lambda module: asked.append(module) or True)
+    monkeypatch.setattr(improve_seams.addon_utils, "enable", lambda module: enabled_modules.append(module) or True)
     assert improve_seams.addon_module() == name
-    assert asked == ([] if enabled else [name])
+    assert enabled_modules == ([] if enabled else [name])
 
 
 def test_a_missing_addon_is_reported(monkeypatch, capfd):

@@ -265,14 +265,14 @@ def test_the_contour_takes_in_the_painted_faces(kind, upper):
     """On a plain cylinder painted from one end to beyond a loop, the loop moves to the border of the paint."""
     obj = grooved_cylinder(depth=0)
     rows = range(8, RINGS - 1) if upper else range(12)
-    asked = paint(obj, [row * SEGMENTS + column for row in rows for column in range(SEGMENTS)], kind)
+    layer_settings = paint(obj, [row * SEGMENTS + column for row in rows for column in range(SEGMENTS)], kind)
     start(obj, ring(10))
-    assert run(**asked, region_strength=50.0, anchor=0.0) == {"FINISHED"}
+    assert run(**layer_settings, region_strength=50.0, anchor=0.0) == {"FINISHED"}
     (row,) = heights(obj)
     assert row < 10 if upper else row > 10
     bpy.ops.mesh.select_all(action="DESELECT")
     select(obj, pairs(ring(10)))
-    run(**asked, region_strength=-50.0, anchor=0.0)
+    run(**layer_settings, region_strength=-50.0, anchor=0.0)
     (row,) = heights(obj)
     assert row > 10 if upper else row < 10
 
@@ -280,21 +280,21 @@ def test_the_contour_takes_in_the_painted_faces(kind, upper):
 def test_in_face_mode_the_selected_part_takes_in_the_painted_faces():
     """Even if most painted faces lie on the other side."""
     obj = grooved_cylinder(depth=0)
-    asked = paint(obj, range(8 * SEGMENTS, 16 * SEGMENTS), "ATTRIBUTE")
+    layer_settings = paint(obj, range(8 * SEGMENTS, 16 * SEGMENTS), "ATTRIBUTE")
     edit(obj, mode="FACE")
     select_faces_below(obj, ring(9))
     before = sum(face.select for face in bmesh.from_edit_mesh(obj.data).faces)
-    run(**asked, region_strength=50.0, anchor=0.0, width=4)
+    run(**layer_settings, region_strength=50.0, anchor=0.0, width=4)
     assert sum(face.select for face in bmesh.from_edit_mesh(obj.data).faces) > before
 
 
 def test_an_open_chain_cannot_have_a_region(last):
     obj = grooved_cylinder()
-    asked = paint(obj, range(40), "ATTRIBUTE")
+    layer_settings = paint(obj, range(40), "ATTRIBUTE")
     edit(obj)
     select(obj, pairs(START[:12], closed=False))
     before = mesh_state(obj)
-    assert run(**asked) == {"CANCELLED"}
+    assert run(**layer_settings) == {"CANCELLED"}
     assert "an open chain does not enclose a region" in last.message
     assert mesh_state(obj) == before
 
@@ -303,7 +303,7 @@ def test_an_open_chain_cannot_have_a_region(last):
 
 
 @pytest.mark.parametrize(
-    ("asked", "words"),
+    ("layer_settings", "words"),
     [
         ({"required_group": "Pins"}, "there is no vertex group named Pins"),
         ({"attractor_group": "Pins"}, "there is no vertex group named Pins"),
@@ -313,15 +313,15 @@ def test_an_open_chain_cannot_have_a_region(last):
         ({"region_source": "COLOR", "region_layer": "Pins"}, "there is no color attribute named Pins"),
     ],
 )
-def test_missing_layers_are_named(asked, words, last):
+def test_missing_layers_are_named(layer_settings, words, last):
     obj = start(grooved_cylinder())
     before = mesh_state(obj)
-    assert run(**asked) == {"CANCELLED"}
+    assert run(**layer_settings) == {"CANCELLED"}
     assert words in last.message
     assert mesh_state(obj) == before
     bpy.ops.object.mode_set(mode="OBJECT")
     with pytest.raises(ValueError, match=words):
-        api.optimize_contour(obj, START, **asked)
+        api.optimize_contour(obj, START, **layer_settings)
 
 
 def test_scripts_have_the_same_constraints():

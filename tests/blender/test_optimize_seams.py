@@ -54,9 +54,9 @@ def islands(obj):
         count += 1
         reached = [pending.pop()]
         while reached:
-            beside = {f for edge in reached.pop().edges if not edge.seam for f in edge.link_faces} & pending
-            pending -= beside
-            reached += beside
+            neighbors = {f for edge in reached.pop().edges if not edge.seam for f in edge.link_faces} & pending
+            pending -= neighbors
+            reached += neighbors
     return count
 
 

@@ -65,9 +65,9 @@ def components(bm):
         pending = [left.pop()]
         while pending:
             for edge in pending.pop().edges:
-                beside = [face for face in edge.link_faces if face in left]
-                left.difference_update(beside)
-                pending += beside
+                neighbors = [face for face in edge.link_faces if face in left]
+                left.difference_update(neighbors)
+                pending += neighbors
     return count
 
 

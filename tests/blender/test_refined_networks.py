@@ -219,7 +219,7 @@ def test_no_label_is_lost_and_no_region_is_split(seed):
     select(obj, [])
     before, regions = mesh_state(obj), pieces(obj, labels)
     hidden = [i for i, face in enumerate(bmesh.from_edit_mesh(obj.data).faces) if face.hide]
-    held = points_and_label(obj, labels, hidden)
+    hidden_before = points_and_label(obj, labels, hidden)
     settings = {"width": int(rng.integers(1, 6)), "merge": float(rng.choice([0, 0.1, 0.5]))}
     settings = REFINED | settings | {"refinement": int(rng.integers(1, 4))}
     results = api.optimize_segmentation(obj, **where(source), **settings)
@@ -232,7 +232,7 @@ def test_no_label_is_lost_and_no_region_is_split(seed):
         assert {before["vertices"][vertex][0] for vertex in result.vertices[result.vertices >= 0]} <= divided
     assert {tuple(vertex.co) for vertex in new_vertices(obj, before)} <= divided  # nothing else is cut
     faces = bmesh.from_edit_mesh(obj.data).faces
-    assert points_and_label(obj, new, [i for i, face in enumerate(faces) if face.hide]) == held
+    assert points_and_label(obj, new, [i for i, face in enumerate(faces) if face.hide]) == hidden_before
     assert is_valid(obj)
 
 

@@ -128,8 +128,8 @@ flat = sys.modules["addon.columns"] = types.ModuleType("addon.columns")  # of a 
 importlib.reload(package)
 assert not hasattr(package, "core") and "addon.core" not in sys.modules and "addon.columns" not in sys.modules
 assert sys.modules["addon.mrcontour"] is library
-from addon.core import parameters as anew
-assert anew is not parameters
+from addon.core import parameters as reloaded
+assert reloaded is not parameters
 """
 
 

@@ -77,10 +77,10 @@ def measure_steps(shown, timed, refinement):
         state, timed.taken = preview_state.changed(state, command), 0.0
         whole, _ = milliseconds(step, shown, state)
         rows.append((len(shown.bands[0]), whole, whole - timed.taken))
-    faces, whole, besides = np.array(rows[1:]).T
+    faces, whole, outside = np.array(rows[1:]).T
     assert faces.max() <= LIMIT
     print(f"refinement {refinement}, bands of {faces.min():.0f} to {faces.max():.0f} faces:", end=" ")
-    for name, values in (("a step", whole), ("; of it besides the native calls", besides)):
+    for name, values in (("a step", whole), ("; of it outside the native calls", outside)):
         print(f"{name} {np.median(values):.2f} ms (95 %: {np.percentile(values, 95):.2f})", end="")
     print()
 
