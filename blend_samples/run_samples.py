@@ -51,7 +51,7 @@ OVERVIEW = {  # the samples in the README's picture, with their captions
 
 @dataclass
 class Sample:
-    """A mesh object with its rough loops (name -> vertices in order) and their settings (name -> non-default settings)."""
+    """A mesh object, its rough loops (name -> vertices in order) and their settings that differ from the defaults."""
 
     name: str
     ob: bpy.types.Object
