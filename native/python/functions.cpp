@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings.h"
+#include "define.h"
 #include "errors.h"
 #include "inputs.h"
 #include "results.h"
 #include "search_space.h"
 
+#include <mrc/band.h>
 #include <mrc/check_contour.h>
 #include <mrc/close_contour.h>
 #include <mrc/curvature.h>
@@ -22,6 +24,8 @@ namespace {
 using mrc::Options;
 using mrc::Scales;
 using mrc::Surface;
+
+using Sides = py::array_t<int8_t, readable>;
 
 PyResult optimize(const Surface& surface, const py::object& vertices, bool closed, const Options& options,
                   const py::object& required_vertices, const py::object& required_edges, const Iterable& attractors,
@@ -96,8 +100,9 @@ mrc::Measure measure(const Surface& surface, const py::object& vertices, bool cl
     const mrc::Contour contour = to_contour(vertices, closed, edge_vertices, edge_parameters);
     const Density density = to_density(region_density);
     const mrc::Constraints constraints = to_constraints(py::tuple(), py::tuple(), attractors, py::tuple(), density);
+    const mrc::Progress interruption = to_progress(py::none());
     const py::gil_scoped_release release;
-    return mrc::measure(surface, contour, options, constraints, scales);
+    return mrc::measure(surface, contour, options, constraints, scales, interruption);
 }
 
 py::typing::Optional<Integers> close_contour(const Surface& surface, const py::object& vertices, const py::object& progress) {
@@ -117,10 +122,11 @@ struct PyCurvature {
 };
 
 PyCurvature curvature(const Surface& surface, const Options& options, const std::optional<Scales>& scales) {
+    const mrc::Progress interruption = to_progress(py::none());
     std::vector<mrc::VertexCurvature> values;
     {
         const py::gil_scoped_release release;
-        values = mrc::curvature(surface, options, scales);
+        values = mrc::curvature(surface, options, scales, interruption);
     }
     std::vector<double> least, most;
     least.reserve(values.size()), most.reserve(values.size());
@@ -140,16 +146,22 @@ Integers band_faces(const mrc::SearchSpace& space) {
     return to_array(faces);
 }
 
-Integers band(const Surface& surface, const py::object& vertices, bool closed, const Options& options,
-              const py::object& edge_vertices, const py::object& edge_parameters) {
+py::typing::Union<Integers, py::typing::Tuple<Integers, Sides>> band(const Surface& surface, const py::object& vertices,
+                                                                     bool closed, const Options& options,
+                                                                     const py::object& edge_vertices,
+                                                                     const py::object& edge_parameters, bool sides) {
     const mrc::Contour contour = to_contour(vertices, closed, edge_vertices, edge_parameters);
-    mrc::SearchSpace space;
+    const mrc::Progress interruption = to_progress(py::none());
+    mrc::BandFaces found;
     {
         const py::gil_scoped_release release;
-        space.patch = mrc::make_patch(surface, mrc::checked_contour(surface, contour), options.width);
-        space.band = mrc::grow_band(surface, space.patch, options);
+        found = mrc::band(surface, contour, options, interruption);
     }
-    return band_faces(space);
+    const Integers faces = to_array(found.faces);
+    if (!sides) return faces;
+    Sides array(static_cast<py::ssize_t>(found.sides.size()));
+    std::ranges::copy(found.sides, array.mutable_data());
+    return py::make_tuple(faces, array);
 }
 
 py::list curves(const mrc::Patch& patch, const std::vector<std::vector<int>>& local) {
@@ -239,10 +251,11 @@ void describe_graph(Dict& d, const mrc::ContourGraph& graph) {
 Dict search_space(const Surface& surface, const py::object& vertices, bool closed, const Options& options,
                   const py::object& edge_vertices, const py::object& edge_parameters) {
     const mrc::Contour contour = to_contour(vertices, closed, edge_vertices, edge_parameters);
+    const mrc::Progress interruption = to_progress(py::none());
     mrc::SearchSpace space;
     {
         const py::gil_scoped_release release;
-        space = mrc::search_space(surface, contour, options);
+        space = mrc::search_space(surface, contour, options, {}, nullptr, interruption);
     }
     Dict d;
     describe_band(d, space);
@@ -251,25 +264,40 @@ Dict search_space(const Surface& surface, const py::object& vertices, bool close
     return d;
 }
 
+/// For type checkers: with sides there are two arrays.
+std::string overloads_by_sides(const std::string& documentation) {
+    const std::string sides = ", sides: bool = False) -> ", arrow = " | ";
+    const std::size_t end = documentation.find(sides), line = documentation.find('\n');
+    const std::string arguments = documentation.substr(0, end), words = documentation.substr(line);
+    const std::string returned = documentation.substr(end + sides.size(), line - end - sides.size());
+    const std::size_t bar = returned.find(arrow);
+    return "band(*args, **kwargs)\nOverloaded function.\n\n1. " + arguments + ", sides: typing.Literal[False] = False) -> " +
+           returned.substr(0, bar) + words + "\n2. " + arguments + ", *, sides: typing.Literal[True]) -> " +
+           returned.substr(bar + arrow.size()) + words;
+}
+
 }  // namespace
 
 void bind_functions(py::module_& module) {
     const auto defaults = py::arg_v("options", Options(), "Options()");  // all of them would fill each signature
     py::class_<PyCurvature>(module, "Curvature", "Principal curvatures over all vertices, positive where convex (3.4).")
+        .def(py::pickle(
+            [](const PyCurvature& c) { return py::make_tuple(c.kappa_min, c.kappa_max, c.direction_min, c.direction_max); },
+            [](const py::tuple& state) {
+                return PyCurvature{state[0].cast<Doubles>(), state[1].cast<Doubles>(), state[2].cast<Doubles>(),
+                                   state[3].cast<Doubles>()};
+            }))
         .def_readonly("kappa_min", &PyCurvature::kappa_min, "(V,) float64, one over the unit of length.")
         .def_readonly("kappa_max", &PyCurvature::kappa_max, "(V,) float64, one over the unit of length.")
         .def_readonly("direction_min", &PyCurvature::direction_min, "(V, 3) float64, unit tangents; they run along ridges.")
         .def_readonly("direction_max", &PyCurvature::direction_max, "(V, 3) float64, unit tangents; they run along valleys.");
     const py::tuple nothing;
-    module.def(
-        "optimize", &optimize, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true, defaults,
-        py::arg("required_vertices") = nothing, py::arg("required_edges") = nothing, py::arg("attractors") = nothing,
-        py::arg("barriers") = nothing, py::arg("region_density") = py::none(), py::arg("scales") = py::none(),
-        py::arg("progress") = py::none(), py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
+    define(
+        module, "optimize", &optimize,
         "Moves a contour to the one of least ratio in a band around it (Clements 2006, chapter 4).\n\n"
         "surface: a Surface; closed: a loop, or an open curve; options: an Options.\n"
-        "vertices: (N,) ids (whole numbers) in order along real edges; a closed contour does not repeat its first; or an earlier\n"
-        "Result, which brings its own closed.\n"
+        "vertices: (N,) ids (whole numbers) in order along real edges; a closed contour does not repeat its first; or a Contour\n"
+        "or an earlier Result, which bring their own closed.\n"
         "edge_vertices, edge_parameters: (N, 2) and (N,), a contour across faces: point i lies at (1 - t) a + t b.\n"
         "required_vertices, required_edges: ids and (n, 2) vertex pairs that the contour must hold (4.4).\n"
         "attractors: (vertex, radius, strength) or (vertex, radius, strength, sigma), soft constraints (4.5): radius and sigma in\n"
@@ -279,19 +307,22 @@ void bind_functions(py::module_& module) {
         "weighs (6.1.2).\n"
         "scales: those of an earlier result, to go on from it.\n"
         "progress: called with the share done, from 0 to 1, three phases an iteration, and in long phases again every few\n"
-        "milliseconds; returning False cancels, an exception passes through.\n"
+        "milliseconds; returning False cancels, an exception passes through. Ctrl-C ends the call with or without it;\n"
+        "only one step cannot be interrupted, the ordering of the harmonic flow's equations, which takes about 0.2 s where 10^6\n"
+        "triangles are searched.\n"
         "Returns a Result. Raises InvalidInput, a ValueError that names the elements, where the contour is not simple, not inside\n"
         "the mesh or crosses a barrier; of these Infeasible, where no contour of the band has all required elements, and "
         "TooLarge,\n"
-        "where the search would take more memory than there is. Ids that are no whole numbers are a TypeError.");
-    module.def(
-        "optimize_all", &optimize_all, py::arg("surface"), py::arg("contours"), py::arg("closed") = true, defaults,
+        "where the search would take more memory than there is. Ids that are no whole numbers are a TypeError.",
+        py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true, defaults,
         py::arg("required_vertices") = nothing, py::arg("required_edges") = nothing, py::arg("attractors") = nothing,
         py::arg("barriers") = nothing, py::arg("region_density") = py::none(), py::arg("scales") = py::none(),
-        py::arg("progress") = py::none(), py::arg("errors") = "raise",
+        py::arg("progress") = py::none(), py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none());
+    define(
+        module, "optimize_all", &optimize_all,
         "Optimizes several contours of one surface, in parallel; they never cross or touch where the given ones did not (1.4).\n\n"
-        "contours: a sequence, each as (N,) vertex ids, as a tuple of edge_vertices (N, 2) and edge_parameters (N,), or an\n"
-        "earlier Result.\n"
+        "contours: a sequence, each as (N,) vertex ids, as a tuple of edge_vertices (N, 2) and edge_parameters (N,), as a\n"
+        "Contour or as an earlier Result.\n"
         "closed, required_vertices, required_edges, scales: one for all contours, or a sequence with one for each.\n"
         "The other arguments are those of optimize.\n"
         "Each contour searches the faces that are nearer to it than to any other; what two bands share is closed to both. The\n"
@@ -299,46 +330,56 @@ void bind_functions(py::module_& module) {
         "errors: 'raise', or 'return': a contour in error gets its InvalidInput in the place of a Result and stays where it is,\n"
         "and the others are optimized all the same. Where it runs along real edges they keep clear of it.\n"
         "Returns a list of Results; held_back_by says which other contours kept one's band from growing. Raises what optimize\n"
-        "raises, for the first contour in error: the attribute contour is its place in the list.");
-    module.def("check_contour", &check_contour, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true,
-               py::arg("barriers") = nothing, py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
-               "Why optimize would refuse a contour, without a search: an InvalidInput that is not raised, or None. Arguments are\n"
-               "those of optimize. Required elements that cannot be reached are found by the search only.");
-    module.def(
-        "measure", &measure, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true, defaults,
-        py::arg("attractors") = nothing, py::arg("region_density") = py::none(), py::arg("scales") = py::none(),
-        py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
-        "The ratio of a contour, without optimizing (eq. 3.3). Arguments and errors are those of optimize; returns a Measure.");
-    module.def(
-        "close_contour", &close_contour, py::arg("surface"), py::arg("vertices"), py::arg("progress") = py::none(),
+        "raises, for the first contour in error: the attribute contour is its place in the list.",
+        py::arg("surface"), py::arg("contours"), py::arg("closed") = true, defaults, py::arg("required_vertices") = nothing,
+        py::arg("required_edges") = nothing, py::arg("attractors") = nothing, py::arg("barriers") = nothing,
+        py::arg("region_density") = py::none(), py::arg("scales") = py::none(), py::arg("progress") = py::none(),
+        py::arg("errors") = "raise");
+    define(module, "check_contour", &check_contour,
+           "Why optimize would refuse a contour, without a search: an InvalidInput that is not raised, or None. Arguments are\n"
+           "those of optimize. Required elements that cannot be reached are found by the search only.",
+           py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true, py::arg("barriers") = nothing,
+           py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none());
+    define(module, "measure", &measure,
+           "The ratio of a contour, without optimizing (eq. 3.3). Arguments and errors are those of optimize; returns a Measure.",
+           py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true, defaults,
+           py::arg("attractors") = nothing, py::arg("region_density") = py::none(), py::arg("scales") = py::none(),
+           py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none());
+    define(
+        module, "close_contour", &close_contour,
         "Closes an open chain round the limb that it lies on, so that part of a loop drawn by hand is enough.\n\n"
-        "vertices: (N,) ids along mesh edges, from one end to the other, at least two. A quarter of a loop nearly always\n"
-        "finds the limb.\n"
+        "vertices: (N,) ids along mesh edges, from one end to the other, at least two; or an open Contour. A quarter of a\n"
+        "loop nearly always finds the limb.\n"
         "progress: called every few milliseconds with the share of the vertices searched, from 0 to 1; returning False cancels,\n"
         "and None is returned; an exception passes through.\n"
         "Returns (n,) int32: the closed contour, which begins with the chain. The way back is the path that is cheapest where\n"
         "the surface is far from the chain and faces away from it (Lee et al. 2004). Give it to optimize. Raises ValueError\n"
-        "where nothing leads round, as on a plane.");
-    module.def(
-        "curvature", &curvature, py::arg("surface"), defaults, py::arg("scales") = py::none(),
+        "where nothing leads round, as on a plane.",
+        py::arg("surface"), py::arg("vertices"), py::arg("progress") = py::none());
+    define(
+        module, "curvature", &curvature,
         "The curvatures at all vertices (3.4), a Curvature; without scales, h is the surface's mean edge length. Of the options\n"
-        "it reads curvature_radius and curvature_smoothing.");
-    module.def(
-        "band", &band, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true, defaults,
-        py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
-        "(n,) int32: the faces that optimize searches first, ascending (4.2.1). Arguments and errors are those of optimize.");
-    module.def(
-        "search_space", &search_space, py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true, defaults,
-        py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(),
-        "All that one search with these width and refinement builds, as a dict of arrays: for display and tests.\n"
-        "Arguments and errors are those of optimize. Vertices are ids of the surface, indices int32, numbers float64.\n\n"
-        "The band: faces (n,); vertices (n,) with side (n,), 1 left, -1 right, 0 on the contour, and round (n,), the dilation\n"
-        "that reached each; left, right and strips: lists of (m,) vertices, the boundary after each round on either side, and\n"
-        "all from right to left; triangles (n, 3).\n"
-        "The flow: edges (n, 2) with increments (n,), from the first vertex to the second, and diagonal (n,) bool.\n"
-        "The graph: points (n, 2) with parameters (n,), as Result.edge_vertices; nodes (n, 2) in topological order, as pairs\n"
-        "of vertices (refined: of rows of points); arcs (n, 2), rows of nodes, with f and g (n,); cut (n,), the nodes that\n"
-        "cross the flow's value level, a float.");
+        "it reads curvature_radius and curvature_smoothing.",
+        py::arg("surface"), defaults, py::arg("scales") = py::none());
+    define_worded(
+        module, "band", &band, &overloads_by_sides,
+        "(n,) int32: the faces that optimize searches first, ascending (4.2.1). Arguments and errors are those of optimize.\n"
+        "sides: give two arrays, the faces and (n,) int8: 1 left of the contour, -1 right of it. A face lies on the side from\n"
+        "which the band reached it; 0: beyond an end of an open contour, where its two sides meet.",
+        py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true, defaults,
+        py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(), py::arg("sides") = false);
+    define(module, "search_space", &search_space,
+           "All that one search with these width and refinement builds, as a dict of arrays: for display and tests.\n"
+           "Arguments and errors are those of optimize. Vertices are ids of the surface, indices int32, numbers float64.\n\n"
+           "The band: faces (n,); vertices (n,) with side (n,), 1 left, -1 right, 0 on the contour, and round (n,), the dilation\n"
+           "that reached each; left, right and strips: lists of (m,) vertices, the boundary after each round on either side, and\n"
+           "all from right to left; triangles (n, 3).\n"
+           "The flow: edges (n, 2) with increments (n,), from the first vertex to the second, and diagonal (n,) bool.\n"
+           "The graph: points (n, 2) with parameters (n,), as Result.edge_vertices; nodes (n, 2) in topological order, as pairs\n"
+           "of vertices (refined: of rows of points); arcs (n, 2), rows of nodes, with f and g (n,); cut (n,), the nodes that\n"
+           "cross the flow's value level, a float.",
+           py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true, defaults,
+           py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none());
 }
 
 }  // namespace mrc_python

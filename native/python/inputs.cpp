@@ -4,6 +4,7 @@
 #include "results.h"
 
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <string>
 
@@ -60,7 +61,7 @@ std::optional<mrc::Scales> to_scales(const py::object& scales) {
     return scales.cast<mrc::Scales>();
 }
 
-/// A contour of a list: vertex ids, points on edges as a pair of arrays, or an earlier result.
+/// A contour of a list: vertex ids, points on edges as a pair of arrays, a Contour or an earlier Result.
 mrc::Contour listed_contour(const py::object& item, bool closed) {
     const bool points = py::isinstance<py::tuple>(item) && py::len(item) == 2 && is_list(py::tuple(item)[0]);
     if (!points) return to_contour(item, closed, py::none(), py::none());
@@ -68,13 +69,28 @@ mrc::Contour listed_contour(const py::object& item, bool closed) {
     return to_contour(py::none(), closed, pair[0], pair[1]);
 }
 
+/// Lets Ctrl-C end a call: looks for signals now and then, seldom enough not to wait for the interpreter's lock all the time. Python
+/// handles signals on the main thread alone.
+mrc::Progress interruption() {
+    const py::module_ threading = py::module_::import("threading");
+    if (!threading.attr("current_thread")().is(threading.attr("main_thread")())) return {};
+    using Clock = std::chrono::steady_clock;
+    return [last = Clock::now()](double) mutable {
+        if (Clock::now() - last < std::chrono::milliseconds(40)) return true;
+        const py::gil_scoped_acquire acquire;
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        last = Clock::now();
+        return true;
+    };
+}
+
 }  // namespace
 
-/// A contour from vertex ids or points on edges, or from an earlier result.
 mrc::Contour to_contour(const py::object& vertices, bool closed, const py::object& edge_vertices,
                         const py::object& edge_parameters) {
     if (vertices.is_none() == edge_vertices.is_none())
         throw py::value_error("give either vertices, or edge_vertices with edge_parameters");
+    if (py::isinstance<mrc::Contour>(vertices)) return vertices.cast<const mrc::Contour&>();
     if (py::isinstance<PyResult>(vertices)) return vertices.cast<const PyResult&>().result.contour;
     if (!vertices.is_none()) {
         const Integers ids = integers(vertices, "vertices");
@@ -83,6 +99,7 @@ mrc::Contour to_contour(const py::object& vertices, bool closed, const py::objec
     }
     const Integers ends = integers(edge_vertices, "edge_vertices");
     require_shape(ends, 2, "edge_vertices");
+    if (edge_parameters.is_none()) throw py::value_error("edge_vertices need edge_parameters: where on its edge each point lies");
     const Doubles parameters = doubles(edge_parameters, "edge_parameters");
     require_shape(parameters, 0, "edge_parameters");
     if (parameters.size() != ends.shape(0)) {
@@ -144,10 +161,15 @@ std::vector<mrc::Task> to_tasks(const Iterable& contours, const py::object& clos
 }
 
 mrc::Progress to_progress(const py::object& progress) {
-    if (progress.is_none()) return {};
+    if (progress.is_none()) return interruption();
+    if (!PyCallable_Check(progress.ptr())) {
+        throw py::type_error("progress must be a function or None, not " +
+                             py::cast<std::string>(py::type::of(progress).attr("__name__")));
+    }
     return [progress = progress.ptr()](double share) {
         const py::gil_scoped_acquire acquire;
         const py::object answer = py::reinterpret_borrow<py::function>(progress)(share);
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
         return answer.is_none() || py::bool_(answer);  // an exception where it has no truth, as arrays
     };
 }

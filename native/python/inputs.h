@@ -11,7 +11,7 @@
 
 namespace mrc_python {
 
-/// A contour from vertex ids or points on edges, or from an earlier result.
+/// A contour from vertex ids or points on edges; or a Contour or an earlier Result, which bring their own `closed`.
 mrc::Contour to_contour(const py::object& vertices, bool closed, const py::object& edge_vertices,
                         const py::object& edge_parameters);
 
@@ -29,7 +29,7 @@ std::vector<std::array<int, 2>> edge_pairs(const py::object& edges, const char* 
 std::vector<mrc::Task> to_tasks(const Iterable& contours, const py::object& closed, const py::object& required_vertices,
                                 const py::object& required_edges, const mrc::Constraints& shared, const py::object& scales);
 
-/// `progress` must outlive what is returned.
+/// None: what is returned only lets Ctrl-C end the call. `progress` must outlive what is returned.
 mrc::Progress to_progress(const py::object& progress);
 
 }  // namespace mrc_python

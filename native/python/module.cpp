@@ -12,6 +12,7 @@ PYBIND11_MODULE(mrcontour, module) {
     mrc_python::bind_errors(module);
     mrc_python::bind_surface(module);
     mrc_python::bind_options(module);
+    mrc_python::bind_contour(module);
     mrc_python::bind_results(module);
     mrc_python::bind_functions(module);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "arrays.h"
 #include "bindings.h"
+#include "values.h"
 
 #include <mrc/errors.h>
 #include <mrc/options.h>
@@ -154,16 +155,33 @@ const std::vector<Row>& rows() {
     return table;
 }
 
-Options make_options(const py::kwargs& given) {
-    Options options;
+const Row* find_row(const std::string& name) {
+    const auto row = std::ranges::find_if(rows(), [&](const Row& r) { return name == r.name; });
+    return row == rows().end() ? nullptr : &*row;
+}
+
+Options changed(Options options, const py::args& positional, const py::dict& given) {
+    if (!positional.empty()) throw py::type_error("options are given by name, as in Options(width=4)");
     for (const auto& [key, value] : given) {
         const auto name = key.cast<std::string>();
-        const auto row = std::ranges::find_if(rows(), [&](const Row& r) { return name == r.name; });
-        if (row == rows().end()) throw py::type_error("there is no option named '" + name + "'");
+        const Row* row = find_row(name);
+        if (!row) throw py::type_error("there is no option named '" + name + "'");
         row->set(options, py::reinterpret_borrow<py::object>(value));
     }
     options.check();
     return options;
+}
+
+Options make_options(const py::args& positional, const py::kwargs& given) { return changed({}, positional, given); }
+
+Options make_recommended(const py::args& positional, const py::kwargs& given) {
+    return changed(Options::recommended(), positional, given);
+}
+
+py::dict values_of(const Options& options) {
+    py::dict values;
+    for (const Row& row : rows()) values[row.name] = row.get(options);
+    return values;
 }
 
 std::string documentation() {
@@ -185,25 +203,35 @@ std::string text_of(const Options& options) {
     return "Options(" + text + ")";
 }
 
-/// The constructor takes any keywords and looks them up itself: what it shows is written out here, also for type checkers.
-std::string constructor_signature() {
-    const Options defaults;
-    std::string text = "__init__(self: mrcontour.Options, *";
+/// The constructors take any keywords and look them up themselves: what they show is written out here, also for type checkers.
+std::string keywords(const Options& defaults) {
+    std::string text = "*";
     for (const Row& row : rows()) {
         text += ", " + std::string(row.name) + ": " + row.type + " = " + std::string(py::repr(row.get(defaults)));
     }
-    return text + ") -> None";
+    return text;
 }
 
 }  // namespace
 
+bool is_option(const std::string& name) { return find_row(name) != nullptr; }
+
 void bind_options(py::module_& module) {
     py::class_<Options> options(module, "Options", documentation().c_str());
     options.def("__repr__", &text_of);
+    options.def("__hash__", [](const Options& o) { return py::hash(py::tuple(values_of(o).attr("values")())); });
+    define_equality(options);
+    define_copies(options);
+    options.def(py::pickle(&values_of, [](const py::dict& values) { return changed({}, py::tuple(), values); }));
     py::options own_signatures;
     own_signatures.disable_function_signatures();
-    options.def(py::init(&make_options), constructor_signature().c_str());
     const Options defaults;
+    options.def(py::init(&make_options), ("__init__(self: mrcontour.Options, " + keywords(defaults) + ") -> None").c_str());
+    const std::string recommended =
+        "recommended(" + keywords(Options::recommended()) +
+        ") -> mrcontour.Options\n\nThe settings whose contours lie closest to where people draw part "
+        "boundaries: the add-on's defaults.\nOptions() has those of the thesis. Changes are given by name.";
+    options.def_static("recommended", &make_recommended, recommended.c_str());
     for (const Row& row : rows()) {
         const std::string value = py::repr(row.get(defaults));
         const std::string text = "(self: mrcontour.Options) -> " + row.type + "\n\n" + row.meaning + ". Default: " + value + ".";

@@ -2,6 +2,7 @@
 #include "results.h"
 
 #include "bindings.h"
+#include "values.h"
 
 #include "trace_contour.h"
 
@@ -63,37 +64,22 @@ const char* reason_name(mrc::Reason reason) {
     return "";
 }
 
-Integers edge_vertices(const mrc::Contour& contour) {
-    std::vector<int> ends;
-    for (const auto& p : contour.points) ends.insert(ends.end(), {p.a, p.b});
-    return to_array(ends, 2);
-}
+py::tuple scales_state(const Scales& s) { return py::make_tuple(s.h, s.K, s.kappa_0, s.L0, s.clamp, s.n0, s.given); }
 
-Doubles edge_parameters(const mrc::Contour& contour) {
-    std::vector<double> parameters;
-    for (const auto& p : contour.points) parameters.push_back(p.t);
-    return to_array(parameters);
-}
-
-Dict statistics(const PyResult& r) {
-    const mrc::Statistics& s = r.result.statistics;
-    Dict d;
-    d["faces"] = s.faces;
-    d["cut"] = s.cut;
-    d["nodes"] = s.nodes;
-    d["arcs"] = s.arcs;
-    d["linear_steps"] = s.linear_steps;
-    d["passes"] = s.passes;
-    d["iterations"] = s.iterations;
-    d["seconds"] = py::cast(s.seconds);
-    return d;
+Scales scales_from_state(const py::tuple& state) {
+    return {state[0].cast<double>(), state[1].cast<double>(), state[2].cast<double>(),      state[3].cast<double>(),
+            state[4].cast<double>(), state[5].cast<int>(),    state[6].cast<mrc::Contour>()};
 }
 
 void bind_scales(py::module_& module) {
-    py::class_<Scales>(
+    py::class_<Scales> scales(
         module, "Scales",
-        "The scales of a contour, fixed before its first iteration. K and kappa_0 are in one over the mesh's unit of length.")
-        .def_readonly("h", &Scales::h, "Mean edge length within 4 rings of the contour, in the mesh's unit.")
+        "The scales of a contour, fixed before its first iteration. K and kappa_0 are in one over the mesh's unit of length.");
+    scales.def("__hash__", [](const Scales& s) { return py::hash(scales_state(s)); });
+    define_equality(scales);
+    define_copies(scales);
+    scales.def(py::pickle(&scales_state, &scales_from_state));
+    scales.def_readonly("h", &Scales::h, "Mean edge length within 4 rings of the contour, in the mesh's unit.")
         .def_readonly("K", &Scales::K, "Area-weighted mean of |kappa_min| there (ridge: |kappa_max|), at least 0.01 / L0.")
         .def_readonly("kappa_0", &Scales::kappa_0, "The constant of eq. 3.2: kappa0_factor K.")
         .def_readonly("L0", &Scales::L0, "Length of the contour, in the mesh's unit.")
@@ -102,6 +88,7 @@ void bind_scales(py::module_& module) {
         .def_property_readonly(
             "given", [](const Scales& s) { return contour_vertices(s.given); },
             "(N,) int32: the contour's vertices; -1 for points between vertices.")
+        .def_readonly("given_contour", &Scales::given, "The Contour itself.")
         .def_property_readonly(
             "given_edge_vertices", [](const Scales& s) { return edge_vertices(s.given); }, "(N, 2) int32, as Result.edge_vertices.")
         .def_property_readonly(
@@ -109,8 +96,20 @@ void bind_scales(py::module_& module) {
             "(N,) float64, as Result.edge_parameters.");
 }
 
+py::tuple measure_state(const mrc::Measure& m) { return py::make_tuple(m.ratio, m.numerator, m.length, m.objective, m.salience); }
+
+mrc::Measure measure_from_state(const py::tuple& state) {
+    return {state[0].cast<double>(), state[1].cast<double>(), state[2].cast<double>(), state[3].cast<double>(),
+            state[4].cast<double>()};
+}
+
 void bind_measure(py::module_& module) {
-    py::class_<mrc::Measure>(module, "Measure", "The energy of a contour (eq. 3.3).")
+    py::class_<mrc::Measure> measure(module, "Measure", "The energy of a contour (eq. 3.3).");
+    measure.def("__hash__", [](const mrc::Measure& m) { return py::hash(measure_state(m)); });
+    define_equality(measure);
+    define_copies(measure);
+    measure.def(py::pickle(&measure_state, &measure_from_state));
+    measure
         .def_readonly("ratio", &mrc::Measure::ratio,
                       "numerator / length, in one over the mesh's unit of length (denominator 'arcs': without unit).")
         .def_readonly("numerator", &mrc::Measure::numerator, "The sum of f over the arcs (eq. 3.2), without unit.")
@@ -126,12 +125,99 @@ auto field(Value mrc::Result::*member) {
     return [member](const PyResult& r) { return r.result.*member; };
 }
 
+/// The value of an enumeration that has a name.
+template <class Enum>
+Enum named(const py::handle& name, const char* (*name_of)(Enum), Enum last) {
+    for (int i = 0; i <= static_cast<int>(last); ++i) {
+        if (name.cast<std::string>() == name_of(static_cast<Enum>(i))) return static_cast<Enum>(i);
+    }
+    throw py::value_error("a pickled result has the unknown name '" + name.cast<std::string>() + "'");
+}
+
+constexpr std::pair<const char*, double mrc::Result::*> result_numbers[] = {
+    {"length", &mrc::Result::length},
+    {"ratio", &mrc::Result::ratio},
+    {"initial_ratio", &mrc::Result::initial_ratio},
+    {"objective", &mrc::Result::objective},
+    {"initial_objective", &mrc::Result::initial_objective},
+    {"salience", &mrc::Result::salience},
+    {"lower_bound", &mrc::Result::lower_bound},
+    {"gap", &mrc::Result::gap},
+};
+
+constexpr std::pair<const char*, int mrc::Statistics::*> statistics_numbers[] = {
+    {"faces", &mrc::Statistics::faces},
+    {"cut", &mrc::Statistics::cut},
+    {"nodes", &mrc::Statistics::nodes},
+    {"arcs", &mrc::Statistics::arcs},
+    {"linear_steps", &mrc::Statistics::linear_steps},
+    {"passes", &mrc::Statistics::passes},
+    {"iterations", &mrc::Statistics::iterations},
+};
+
+Dict statistics(const PyResult& r) {
+    Dict d;
+    for (const auto& [name, member] : statistics_numbers) d[name] = r.result.statistics.*member;
+    d["seconds"] = py::cast(r.result.statistics.seconds);
+    return d;
+}
+
+py::dict result_state(const PyResult& r) {
+    py::dict state;
+    for (const auto& [name, member] : result_numbers) state[name] = r.result.*member;
+    state["contour"] = r.result.contour;
+    state["status"] = status_name(r.result.status);
+    state["reason_code"] = reason_name(r.result.reason_code);
+    state["reason"] = r.result.reason;
+    state["history"] = r.result.history;
+    state["held_back_by"] = r.result.held_back_by;
+    state["scales"] = r.result.scales;
+    state["statistics"] = statistics(r);
+    state["positions"] = rows_of_three(r.positions, [](const mrc::Vec3& p) { return p; });
+    state["segment_faces"] = to_array(r.segment_faces);
+    return state;
+}
+
+PyResult result_from_state(const py::dict& state) {
+    PyResult r;
+    for (const auto& [name, member] : result_numbers) r.result.*member = state[name].cast<double>();
+    r.result.contour = state["contour"].cast<mrc::Contour>();
+    r.result.status = named(state["status"], &status_name, mrc::Status::cancelled);
+    r.result.reason_code = named(state["reason_code"], &reason_name, mrc::Reason::cancelled);
+    r.result.reason = state["reason"].cast<std::string>();
+    r.result.history = state["history"].cast<std::vector<double>>();
+    r.result.held_back_by = state["held_back_by"].cast<std::vector<int>>();
+    r.result.scales = state["scales"].cast<Scales>();
+    const py::dict counts = state["statistics"];
+    for (const auto& [name, member] : statistics_numbers) r.result.statistics.*member = counts[name].cast<int>();
+    r.result.statistics.seconds = counts["seconds"].cast<std::map<std::string, double>>();
+    const Doubles positions = doubles(state["positions"], "positions");
+    for (py::ssize_t i = 0; i < positions.shape(0); ++i) {
+        r.positions.emplace_back(positions.at(i, 0), positions.at(i, 1), positions.at(i, 2));
+    }
+    const Integers faces = integers(state["segment_faces"], "segment_faces");
+    r.segment_faces.assign(faces.data(), faces.data() + faces.size());
+    return r;
+}
+
 }  // namespace
 
 Integers contour_vertices(const mrc::Contour& contour) {
     std::vector<int> vertices;
     for (const auto& p : contour.points) vertices.push_back(p.is_vertex() ? p.a : -1);
     return to_array(vertices);
+}
+
+Integers edge_vertices(const mrc::Contour& contour) {
+    std::vector<int> ends;
+    for (const auto& p : contour.points) ends.insert(ends.end(), {p.a, p.b});
+    return to_array(ends, 2);
+}
+
+Doubles edge_parameters(const mrc::Contour& contour) {
+    std::vector<double> parameters;
+    for (const auto& p : contour.points) parameters.push_back(p.t);
+    return to_array(parameters);
 }
 
 PyResult describe(const mrc::Surface& surface, mrc::Result result) {
@@ -145,9 +231,12 @@ PyResult describe(const mrc::Surface& surface, mrc::Result result) {
 void bind_results(py::module_& module) {
     bind_scales(module);
     bind_measure(module);
-    py::class_<PyResult>(
+    py::class_<PyResult> result(
         module, "Result",
-        "What optimize found. Ratios are in one over the mesh's unit of length (denominator 'arcs': without unit).")
+        "What optimize found. Ratios are in one over the mesh's unit of length (denominator 'arcs': without unit).");
+    define_copies(result);
+    result.def(py::pickle(&result_state, &result_from_state));
+    result
         .def_property_readonly(
             "status", [](const PyResult& r) { return StatusName(py::str(status_name(r.result.status))); },
             "'improved', 'unchanged' (the given contour is returned), 'constrained' (it broke a requirement, and the best that "
@@ -190,6 +279,9 @@ void bind_results(py::module_& module) {
             "statistics", &statistics,
             "dict: faces, cut, nodes, arcs, linear_steps and passes of the last iteration, as in tables 5.1 and 5.2; iterations, "
             "done in all; seconds, a dict of the time of each stage.")
+        .def_property_readonly("contour", field(&mrc::Result::contour), "The Contour found.")
+        .def_property_readonly("length", field(&mrc::Result::length),
+                               "Of the contour returned along its segments, in the mesh's unit.")
         .def_property_readonly(
             "closed", [](const PyResult& r) { return r.result.contour.closed; }, "bool: a loop, or an open curve.")
         .def_property_readonly(

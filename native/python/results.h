@@ -18,6 +18,10 @@ struct PyResult {
 
 PyResult describe(const mrc::Surface& surface, mrc::Result result);
 
+/// Vertex ids; -1 for points between vertices.
 Integers contour_vertices(const mrc::Contour& contour);
+/// Points as (a, b) and t: they lie at (1 - t) a + t b.
+Integers edge_vertices(const mrc::Contour& contour);
+Doubles edge_parameters(const mrc::Contour& contour);
 
 }  // namespace mrc_python

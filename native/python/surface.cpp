@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "arrays.h"
 #include "bindings.h"
+#include "define.h"
+#include "values.h"
 
 #include <mrc/surface.h>
 
+#include <algorithm>
 #include <memory>
+#include <span>
+#include <vector>
 
 namespace mrc_python {
 namespace {
@@ -51,22 +56,50 @@ std::unique_ptr<mrc::Surface> make_surface(const py::object& positions, const py
     return std::make_unique<mrc::Surface>(arrays);
 }
 
+/// The arguments that make the same surface again.
+py::tuple surface_state(const mrc::Surface& surface) {
+    std::vector<int> offsets{0}, corners, triangles, hidden;
+    for (int f = 0; f < surface.face_count(); ++f) {
+        const std::span<const int> face = surface.face(f);
+        corners.insert(corners.end(), face.begin(), face.end());
+        offsets.push_back(static_cast<int>(corners.size()));
+        if (surface.hidden(f)) hidden.push_back(f);
+    }
+    for (int t = 0; t < surface.triangle_count(); ++t) {
+        triangles.insert(triangles.end(), surface.triangle(t).begin(), surface.triangle(t).end());
+    }
+    Doubles positions({static_cast<py::ssize_t>(surface.vertex_count()), py::ssize_t{3}});
+    double* out = positions.mutable_data();
+    for (int v = 0; v < surface.vertex_count(); ++v) out = std::copy_n(surface.position(v).data(), 3, out);
+    return py::make_tuple(positions, to_array(offsets), to_array(corners), to_array(triangles, 3), to_array(hidden));
+}
+
+std::unique_ptr<mrc::Surface> surface_from_state(const py::tuple& state) {
+    return make_surface(state[0], state[1], state[2], state[3], state[4]);
+}
+
 }  // namespace
 
 void bind_surface(py::module_& module) {
-    py::class_<mrc::Surface>(module, "Surface",
-                             "A validated, immutable mesh with its adjacency. It keeps copies: the arrays may change afterwards.\n"
-                             "It may be used from several threads at once.")
-        .def(py::init(&make_surface), py::arg("positions"), py::arg("face_offsets"), py::arg("face_vertices"),
-             py::arg("triangles") = py::none(), py::arg("hidden_faces") = py::none(),
-             "positions: (V, 3) float64, in any unit of length.\n"
-             "face_offsets: (F + 1,) int32; face i is face_vertices[face_offsets[i]:face_offsets[i + 1]]. None: all triangles.\n"
-             "face_vertices: (sum of corners,) int32, or (F, 3) where face_offsets is None.\n"
-             "triangles: (T, 3) int32, n - 2 for each face of n corners, in face order; None: made here.\n"
-             "hidden_faces: ids, or a mask of F bools: faces that no band enters.\n"
-             "Raises ValueError naming the elements: indices out of range, positions that are not finite or beyond 1e50, faces\n"
-             "with fewer than three or with repeated vertices, triangles that are no triangulation of their faces.")
-        .def_property_readonly("vertex_count", &mrc::Surface::vertex_count, "V, those in no face too.")
+    py::class_<mrc::Surface> surface(
+        module, "Surface",
+        "A validated, immutable mesh with its adjacency. It keeps copies: the arrays may change afterwards.\n"
+        "It may be used from several threads at once.");
+    define_constructor_with_advice(
+        surface, &make_surface,
+        "Surface(positions, None, triangles) for triangles, Surface(positions, face_offsets, face_vertices) for polygons",
+        "positions: (V, 3) float64, in any unit of length.\n"
+        "face_offsets: (F + 1,) int32; face i is face_vertices[face_offsets[i]:face_offsets[i + 1]]. None: all triangles.\n"
+        "face_vertices: (sum of corners,) int32, or (F, 3) where face_offsets is None.\n"
+        "triangles: (T, 3) int32, n - 2 for each face of n corners, in face order; None: made here.\n"
+        "hidden_faces: ids, or a mask of F bools: faces that no band enters.\n"
+        "Raises ValueError naming the elements: indices out of range, positions that are not finite or beyond 1e50, faces\n"
+        "with fewer than three or with repeated vertices, triangles that are no triangulation of their faces.",
+        py::arg("positions"), py::arg("face_offsets"), py::arg("face_vertices"), py::arg("triangles") = py::none(),
+        py::arg("hidden_faces") = py::none());
+    define_copies(surface);
+    surface.def(py::pickle(&surface_state, &surface_from_state));
+    surface.def_property_readonly("vertex_count", &mrc::Surface::vertex_count, "V, those in no face too.")
         .def_property_readonly("face_count", &mrc::Surface::face_count, "F, hidden faces too.")
         .def_property_readonly("edge_count", &mrc::Surface::edge_count, "Real edges, and the diagonals of the triangulation.")
         .def("__repr__", [](const mrc::Surface& s) {

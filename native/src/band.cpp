@@ -52,12 +52,13 @@ class PolygonSides {
 
 /// The order in which polygons compete: of distance, rounded so that equal ones stay equal under rounding; then of position. Gives
 /// the place of each.
-std::vector<int> polygon_ranks(const Patch& patch, const PolygonSides& sides) {
+std::vector<int> polygon_ranks(const Patch& patch, const PolygonSides& sides, const Beat& beat) {
     double length = 0.0;
     for (const int h : contour_halfedges(patch)) length += patch.mesh.calc_edge_length(Halfedge(h));
     using Key = std::tuple<double, double, double, double, int>;
     std::vector<Key> keys;
     for (int p = 0; p < patch.polygon_count(); ++p) {
+        beat_at(static_cast<std::size_t>(p), beat);
         double distance = 0.0;
         PatchMesh::Point center(0.0);
         for (const int h : sides[p]) {
@@ -94,14 +95,15 @@ std::vector<char> barrier_edges(const Patch& patch, const Constraints& constrain
 /// Dilates the band round by round, and closes its disk beyond the ends of an open curve.
 class Grower {
   public:
-    Grower(const Patch& patch, double farthest, const Constraints& constraints, const Exclusion& exclusion)
+    Grower(const Patch& patch, double farthest, const Constraints& constraints, const Exclusion& exclusion, const Beat& beat)
         : patch_(patch),
+          beat_(beat),
           mesh_(patch.mesh),
           sides_(patch),
           farthest_(farthest),
           refused_(exclusion.refused),
           front_(patch, barrier_edges(patch, constraints, exclusion)),
-          rank_(polygon_ranks(patch, sides_)) {
+          rank_(polygon_ranks(patch, sides_, beat)) {
         band_.face.assign(mesh_.n_faces(), 0);
         band_.side.assign(mesh_.n_vertices(), Side::outside);
         band_.round.assign(mesh_.n_vertices(), -1);
@@ -127,6 +129,7 @@ class Grower {
 
   private:
     const Patch& patch_;
+    const Beat& beat_;
     const PatchMesh& mesh_;
     PolygonSides sides_;
     double farthest_;            // how far from the contour the third and later rounds may reach
@@ -159,6 +162,7 @@ class Grower {
         front_.pass(sides, chain);
         polygon_in_[polygon] = 1;
         band_.polygons.push_back(polygon);
+        band_.polygon_side.push_back(chain.side);
         for (int f = patch_.first_face[polygon]; f < patch_.first_face[polygon + 1]; ++f) band_.face[f] = 1;
     }
 
@@ -197,6 +201,7 @@ class Grower {
 
     /// One round of dilation. A polygon that may not enter yet is tried again after each neighbor that does.
     bool grow_round(int round) {
+        beat_at(0, beat_);
         std::vector<char> eligible(patch_.polygon_count(), 0);
         using Entry = std::pair<int, int>;  // rank, polygon
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
@@ -210,6 +215,7 @@ class Grower {
         while (!queue.empty()) {
             const int polygon = queue.top().second;
             queue.pop();
+            beat_at(band_.polygons.size(), beat_);
             if (polygon_in_[polygon]) continue;
             const Chain chain = front_.meeting(sides_[polygon], band_.side);
             if (chain.length == 0 || chain.mixed) continue;
@@ -235,6 +241,7 @@ class Grower {
                 if (chain.length == 0) continue;
                 enter(polygon, chain, earliest_round(polygon) + 1);
                 ++band_.end_polygons;
+                band_.polygon_side.back() = Side::contour;
                 grown = true;
             }
         }
@@ -253,6 +260,7 @@ class Grower {
         for (const int h : contour_halfedges(patch_)) band_.edge[h / 2] = 1;
         for (std::size_t f = 0; f < band_.face.size(); ++f) {
             if (!band_.face[f]) continue;
+            beat_at(f, beat_);
             for (const auto e : mesh_.fe_range(PatchMesh::FaceHandle(static_cast<int>(f)))) band_.edge[e.idx()] = 1;
         }
     }
@@ -261,10 +269,10 @@ class Grower {
 }  // namespace
 
 Band grow_band(const Surface& surface, const Patch& patch, const Options& options, const Constraints& constraints,
-               const Exclusion& exclusion) {
+               const Exclusion& exclusion, const Beat& beat) {
     const double radius = options.band_distance ? surface.average_radius(patch.vertex[patch.contour[0]]) : 0.0;
     const double farthest = options.band_distance ? *options.band_distance * radius : std::numeric_limits<double>::infinity();
-    return Grower(patch, farthest, constraints, exclusion).grow(options.width);
+    return Grower(patch, farthest, constraints, exclusion, beat).grow(options.width);
 }
 
 }  // namespace mrc

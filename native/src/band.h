@@ -15,11 +15,12 @@ enum class Side : signed char { right = -1, contour = 0, left = 1, outside = 2 }
 
 /// The faces searched, and the boundary curves of every dilation round on both sides (4.2.1).
 struct Band {
-    std::vector<char> face;     ///< of each patch face: true inside the band
-    std::vector<char> edge;     ///< of each patch edge: true for sides and diagonals of the band's faces and for the contour
-    std::vector<int> polygons;  ///< local polygons of the band, in the order in which they entered
-    std::vector<Side> side;     ///< of each patch vertex: left or right of the contour as one walks along it
-    std::vector<int> round;     ///< of each patch vertex: the round in which it entered, 0 on the contour, -1 outside
+    std::vector<char> face;          ///< of each patch face: true inside the band
+    std::vector<char> edge;          ///< of each patch edge: true for sides and diagonals of the band's faces and for the contour
+    std::vector<int> polygons;       ///< local polygons of the band, in the order in which they entered
+    std::vector<Side> polygon_side;  ///< of each of `polygons`: left or right, or `contour` for the `end_polygons`
+    std::vector<Side> side;          ///< of each patch vertex: left or right of the contour as one walks along it
+    std::vector<int> round;          ///< of each patch vertex: the round in which it entered, 0 on the contour, -1 outside
     /// left[r], right[r]: the boundary after round r as patch vertices, running along with the contour; [0] is the contour. Those of
     /// an open curve run from its first vertex to its last, before the `end_polygons` enter.
     std::vector<std::vector<int>> left, right;
@@ -34,6 +35,6 @@ struct Band {
 /// 4.2.1, are the triangle's two cases), in the order of its round and then of its distance from the contour. The chain lies on one
 /// side of the contour; last of all, polygons whose chains run round an end of an open curve, or on from there, close the disk.
 Band grow_band(const Surface& surface, const Patch& patch, const Options& options, const Constraints& constraints = {},
-               const Exclusion& exclusion = {});
+               const Exclusion& exclusion = {}, const Beat& beat = {});
 
 }  // namespace mrc

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contour_optimization.h"
 
+#include "contour_scales.h"
 #include "required_elements.h"
 #include "trace_contour.h"
 
@@ -59,7 +60,7 @@ Infeasible infeasible(const ContourGraph& graph, const Constraints& constraints,
 }  // namespace
 
 ContourOptimization::ContourOptimization(const Surface& surface, const Contour& contour, const Options& options,
-                                         const Constraints& constraints, const std::optional<Scales>& scales)
+                                         const Constraints& constraints, const std::optional<Scales>& scales, const Beat& beat)
     : surface_(surface),
       options_(options),
       phase_options_(options),
@@ -67,10 +68,11 @@ ContourOptimization::ContourOptimization(const Surface& surface, const Contour& 
       given_(contour),
       stopwatch_(result_.statistics.seconds),
       feasible_(has_required_elements(contour, constraints)) {
-    context_ = stopwatch_.time(
-        "curvature", [&] { return std::make_unique<SearchContext>(surface, contour, options, constraints.attractors, scales); });
+    context_ = stopwatch_.time("curvature", [&] {
+        return std::make_unique<SearchContext>(surface, contour, options, constraints.attractors, scales, beat);
+    });
     if (constraints_.has_region() && options_.region_weight != 0.0) {
-        enclosed_ = enclosed_change(surface_, *constraints_.region_density, context_->scales.given, given_);
+        enclosed_ = enclosed_change(surface_, *constraints_.region_density, context_->scales.given, given_, beat);
     }
     const Measure first = measure(surface_, context_->energy, given_, options_.refinement, enclosed_);
     result_.scales = context_->scales;
@@ -94,18 +96,18 @@ void ContourOptimization::begin_phase(int steiner) {
     moving_ = true;
 }
 
-void ContourOptimization::cut_out() {
+void ContourOptimization::cut_out(const Beat& beat) {
     ++result_.statistics.iterations;
     moving_ = moved_ = false;
     patch_.reset();
     if (has_neighbor_along_edges(surface_, result_.contour)) {
-        patch_ = stopwatch_.time("patch", [&] { return make_patch(surface_, result_.contour, phase_options_.width); });
+        patch_ = stopwatch_.time("patch", [&] { return make_patch(surface_, result_.contour, phase_options_.width, beat); });
     } else if (result_.status == Status::unchanged) {
         because(Reason::no_neighbour, no_neighbour);
     }
 }
 
-void ContourOptimization::grow(Partition* partition, int number) {
+void ContourOptimization::grow(Partition* partition, int number, const Beat& beat) {
     result_.held_back_by.clear();
     if (!patch_) return;
     exclusion_ = {};
@@ -120,7 +122,7 @@ void ContourOptimization::grow(Partition* partition, int number) {
         exclusion_ = partition->exclusion(number, *patch_);
         exclusion_.own = {expressed(given_, steiner_), expressed(result_.contour, steiner_)};
     }
-    band_ = stopwatch_.time("band", [&] { return grow_band(surface_, *patch_, phase_options_, constraints_, exclusion_); });
+    band_ = stopwatch_.time("band", [&] { return grow_band(surface_, *patch_, phase_options_, constraints_, exclusion_, beat); });
 }
 
 void ContourOptimization::search(Partition* partition, int number, const Beat& beat) {
@@ -129,10 +131,10 @@ void ContourOptimization::search(Partition* partition, int number, const Beat& b
         partition->close(number, *patch_, exclusion_);
         result_.held_back_by = partition->held_back_by(number, *patch_, band_);
     }
-    const Flow flow = stopwatch_.time("flow", [&] { return make_flow(*patch_, band_, options_); });
+    const Flow flow = stopwatch_.time("flow", [&] { return make_flow(*patch_, band_, options_, beat); });
     if (beat) beat();
     stopwatch_.time("curvature", [&] { prepare_curvature(beat); });
-    const std::optional<EdgeForm> region = make_region_form(*patch_, flow);
+    const std::optional<EdgeForm> region = make_region_form(*patch_, flow, beat);
     const ContourGraph graph = stopwatch_.time("graph", [&] {
         return make_graph(surface_, *patch_, band_, flow, context_->energy, options_, constraints_, steiner_,
                           region ? &*region : nullptr, exclusion_, beat);
@@ -171,6 +173,7 @@ Result ContourOptimization::finish() {
     const bool lost = result_.status == Status::improved && !below(result_.objective, result_.initial_objective);
     if (result_.status == Status::improved && (lost || (searched_ && featureless()))) keep_given();
     if (lost) because(Reason::none_refined, "no better contour was found across faces");
+    result_.length = contour_length(surface_, result_.contour);
     return result_;
 }
 
@@ -184,6 +187,7 @@ void ContourOptimization::settle_where_given() {
 Result ContourOptimization::cancelled() const {
     Result result;
     result.contour = given_;
+    result.length = contour_length(surface_, given_);
     result.status = Status::cancelled;
     result.reason_code = Reason::cancelled;
     result.reason = "cancelled";
@@ -209,9 +213,9 @@ RatioOptions ContourOptimization::search_options(const Beat& beat) const {
     return options;
 }
 
-std::optional<EdgeForm> ContourOptimization::make_region_form(const Patch& patch, const Flow& flow) const {
+std::optional<EdgeForm> ContourOptimization::make_region_form(const Patch& patch, const Flow& flow, const Beat& beat) const {
     if (!constraints_.has_region() || options_.region_weight == 0.0) return std::nullopt;
-    return region_form(surface_, patch, band_, flow, *constraints_.region_density, enclosed_);
+    return region_form(surface_, patch, band_, flow, *constraints_.region_density, enclosed_, beat);
 }
 
 void ContourOptimization::accept(const Contour& found, const std::optional<EdgeForm>& region) {

@@ -59,12 +59,12 @@ double mean_edge_length(const Surface& surface, const Contour& contour) {
     return sum / static_cast<double>(lengths.size());
 }
 
-Scales contour_scales(const Surface& surface, const CurvatureField& field, double h, const Contour& contour,
-                      const Options& options) {
+Scales contour_scales(const Surface& surface, const CurvatureField& field, double h, const Contour& contour, const Options& options,
+                      const Beat& beat) {
     double weighted = 0.0, area = 0.0;
     std::vector<double> features;
     const std::vector<int> near = vertices_within(surface, contour_ends(contour), rings);
-    field.prepare(near);
+    field.prepare(near, beat);
     for (const int v : near) {
         const VertexCurvature c = field.at(v);
         const double share = vertex_area(surface, v);

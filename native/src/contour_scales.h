@@ -16,7 +16,7 @@ double contour_length(const Surface& surface, const Contour& contour);
 double mean_edge_length(const Surface& surface, const Contour& contour);
 
 /// `field` must be made with h = mean_edge_length(surface, contour).
-Scales contour_scales(const Surface& surface, const CurvatureField& field, double h, const Contour& contour,
-                      const Options& options);
+Scales contour_scales(const Surface& surface, const CurvatureField& field, double h, const Contour& contour, const Options& options,
+                      const Beat& beat = {});
 
 }  // namespace mrc

@@ -2,6 +2,7 @@
 #include <mrc/curvature.h>
 
 #include "curvature_field.h"
+#include "progress_monitor.h"
 
 #include <mrc/errors.h>
 
@@ -25,14 +26,19 @@ double whole_mean_edge_length(const Surface& surface) {
 
 }  // namespace
 
-std::vector<VertexCurvature> curvature(const Surface& surface, const Options& options, const std::optional<Scales>& scales) {
+std::vector<VertexCurvature> curvature(const Surface& surface, const Options& options, const std::optional<Scales>& scales,
+                                       const Progress& progress) {
     options.check();
     std::vector<VertexCurvature> result;
     if (surface.face_count() == 0) return std::vector<VertexCurvature>(surface.vertex_count());
     const CurvatureField field(surface, scales ? scales->h : whole_mean_edge_length(surface), options);
     std::vector<int> all(surface.vertex_count());
     std::iota(all.begin(), all.end(), 0);
-    field.prepare(all);
+    const bool done = with_monitor(progress, [&](ProgressMonitor& monitor) {
+        field.prepare(all, [&] { monitor.beat(); });
+        monitor.advance(1.0);
+    });
+    if (!done) return {};
     for (const int v : all) result.push_back(field.at(v));
     return result;
 }

@@ -225,7 +225,10 @@ class CurvatureField::Impl {
     }
 
     void make_tensors(const std::vector<int>& fresh, const Beat& beat) {
-        const auto nearby = search_.run(near_, fresh, limit_, [&](int n) { near_.expand(n); });
+        const auto nearby = search_.run(near_, fresh, limit_, [&, met = 0](int n) mutable {
+            if (beat && ++met % 1024 == 0) beat();
+            near_.expand(n);
+        });
         tensors_.resize(near_.size());
         has_tensor_.resize(near_.size(), 0);
         std::vector<int> missing;

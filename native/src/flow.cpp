@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flow.h"
 
+#include "sparse_cholesky.h"
 #include "strip_flow.h"
-
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
 
 #include <algorithm>
 
@@ -92,7 +90,7 @@ std::vector<double> fixed_values(const Patch& patch, const Band& band, const Opt
 }
 
 /// The harmonic flow: of all flows the one of least sum of squared increments over the real edges.
-Flow harmonic_flow(const Patch& patch, const Band& band, const Options& options) {
+Flow harmonic_flow(const Patch& patch, const Band& band, const Options& options, const Beat& beat) {
     const PatchMesh& mesh = patch.mesh;
     Flow flow{fixed_values(patch, band, options), {}};
     flow.jump = patch.closed ? crossing_form(patch, band) : std::vector<int>(mesh.n_halfedges(), 0);
@@ -115,10 +113,13 @@ Flow harmonic_flow(const Patch& patch, const Band& band, const Options& options)
         add(a, b, flow.jump[h]);
         add(b, a, flow.jump[opposite(h)]);
     }
+    if (beat) beat();
     Eigen::SparseMatrix<double> matrix(count, count);
     matrix.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
+    if (beat) beat();
+    const SparseCholesky solver(matrix, beat);
     const Eigen::VectorXd solution = solver.solve(right);
+    if (beat) beat();
     for (std::size_t v = 0; v < unknown.size(); ++v) {
         if (unknown[v] >= 0) flow.value[v] = solution[unknown[v]];
         if (band.side[v] == Side::outside) flow.value[v] = 0.0;
@@ -143,9 +144,9 @@ std::vector<int> border_piece(const Patch& patch, const Band& band, int vertex) 
     return piece;
 }
 
-Flow make_flow(const Patch& patch, const Band& band, const Options& options) {
-    if (options.flow == FlowKind::harmonic) return harmonic_flow(patch, band, options);
-    return strip_flow(patch, band, options.flow, fixed_values(patch, band, options));
+Flow make_flow(const Patch& patch, const Band& band, const Options& options, const Beat& beat) {
+    if (options.flow == FlowKind::harmonic) return harmonic_flow(patch, band, options, beat);
+    return strip_flow(patch, band, options.flow, fixed_values(patch, band, options), beat);
 }
 
 }  // namespace mrc

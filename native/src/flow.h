@@ -24,7 +24,7 @@ struct Flow {
 /// `harmonic`: the closed 1-form of period 1 that is harmonic with weight 1 on real edges; it depends on no starting line.
 /// `gates`, `arc_length`: the distance functions of 4.2.3 along the strip boundaries, tied by gates or not.
 /// @throws InvalidInput where no flow exists.
-Flow make_flow(const Patch& patch, const Band& band, const Options& options);
+Flow make_flow(const Patch& patch, const Band& band, const Options& options, const Beat& beat = {});
 
 /// The vertices of the piece of mesh border within the band that holds a vertex; empty where the vertex is not on the border.
 std::vector<int> border_piece(const Patch& patch, const Band& band, int vertex);

@@ -50,20 +50,15 @@ class JointOptimization {
           monitor_(progress),
           regular_iterations_(whole_and_refined(options) ? std::max(1, options.regular_iterations) : options.regular_iterations),
           on_error_(on_error),
+          tasks_(tasks),
           errors_(tasks.size()),
           contours_(tasks.size()) {
         for (const Task& task : tasks) constraints_.push_back(task.constraints);
-        for_each([&](int i) {
-            const Task& task = tasks[i];
-            const Contour checked = checked_input(surface, task.contour, options, constraints_[i], task.scales);
-            check_barriers(surface, checked, constraints_[i]);
-            contours_[i] = std::make_unique<ContourOptimization>(surface, checked, options, constraints_[i], task.scales);
-        });
-        block_refused(tasks);
     }
 
     std::vector<Outcome> run() {
         try {
+            prepare();
             if (regular_iterations_ > 0) run_phase(regular_iterations_, 0, 0);
             run_phase(options_.iterations, options_.refinement, regular_iterations_);
             std::vector<Result> results(contours_.size());
@@ -82,10 +77,12 @@ class JointOptimization {
     ProgressMonitor monitor_;
     const int regular_iterations_;
     const OnError on_error_;
+    const std::span<const Task> tasks_;
     std::vector<Constraints> constraints_;
     std::vector<std::optional<InvalidInput>> errors_;             // of the contours whose errors are kept
     std::vector<std::unique_ptr<ContourOptimization>> contours_;  // null: refused before the first iteration
     int iteration_ = 0;                                           // the one under way, counted as if none ended early
+    const Beat beat_ = [this] { monitor_.beat(); };
 
     /// A refined search needs the regular result of the whole surface to begin from.
     static bool whole_and_refined(const Options& options) { return !options.width && options.refinement > 0; }
@@ -115,12 +112,24 @@ class JointOptimization {
     }
     std::string name(int i) const { return count() == 1 ? "" : "contour " + std::to_string(i) + ": "; }
 
+    /// Checks the input and measures the given contours, which a cancelled call gives back.
+    void prepare() {
+        const Beat beat = [this] { monitor_.essential_beat(); };
+        for_each([&](int i) {
+            const Task& task = tasks_[i];
+            const Contour checked = checked_input(surface_, task.contour, options_, constraints_[i], task.scales);
+            check_barriers(surface_, checked, constraints_[i]);
+            contours_[i] = std::make_unique<ContourOptimization>(surface_, checked, options_, constraints_[i], task.scales, beat);
+        });
+        block_refused();
+    }
+
     /// Where refused contours run along real edges, these are barriers for all others.
-    void block_refused(std::span<const Task> tasks) {
+    void block_refused() {
         std::vector<Edge> edges;
         for (int i = 0; i < count(); ++i) {
             if (contours_[i]) continue;
-            const std::vector<Edge> own = real_edges_along(surface_, tasks[i].contour);
+            const std::vector<Edge> own = real_edges_along(surface_, tasks_[i].contour);
             edges.insert(edges.end(), own.begin(), own.end());
         }
         for (Constraints& constraints : constraints_) {
@@ -152,18 +161,17 @@ class JointOptimization {
                 if (active[i]) step(*contours_[i], i);
             });
         };
-        for_each_active([](ContourOptimization& contour, int) { contour.cut_out(); });
+        for_each_active([&](ContourOptimization& contour, int) { contour.cut_out(beat_); });
         report(1);
         std::optional<Partition> shared;
         if (several()) share_out(shared.emplace(surface_));
         Partition* partition = shared ? &*shared : nullptr;
-        for_each_active([&](ContourOptimization& contour, int i) { contour.grow(partition, i); });
+        for_each_active([&](ContourOptimization& contour, int i) { contour.grow(partition, i, beat_); });
         for (int i = 0; partition && i < count(); ++i) {
             if (contours_[i] && contours_[i]->patch()) partition->enclose(i, *contours_[i]->patch(), contours_[i]->band());
         }
         report(2);
-        const Beat beat = [&] { monitor_.beat(); };
-        for_each_active([&](ContourOptimization& contour, int i) { contour.search(partition, i, beat); });
+        for_each_active([&](ContourOptimization& contour, int i) { contour.search(partition, i, beat_); });
         wake_neighbors(active);
         for (int i = 0; i < count(); ++i) {
             if (moving(i)) return true;
@@ -174,6 +182,7 @@ class JointOptimization {
     void share_out(Partition& partition) {
         for (int i = 0; i < count(); ++i) {
             if (!contours_[i]) continue;
+            monitor_.beat();
             partition.occupy(i, contours_[i]->given());
             partition.occupy(i, contours_[i]->current());
             if (contours_[i]->patch()) partition.claim(i, *contours_[i]->patch());

@@ -23,6 +23,21 @@ void require(bool valid, const char* name, double value, const char* range) {
 
 }  // namespace
 
+Options Options::recommended() {
+    Options options;
+    options.width = 8;
+    options.band_distance = 0.16;
+    options.iterations = 2;
+    options.length_bias = 2.0;
+    options.length_floor = 0.5;
+    options.anchor = 0.5;
+    options.feature_clamp = 0.9;
+    options.crease = 0.5;
+    options.min_salience = 0.25;
+    options.max_turn = 100.0 * (std::numbers::pi / 180.0);  // contours climb quads in stairs
+    return options;
+}
+
 void Options::check() const {
     const auto finite_above = [](double value, double least) { return usable(value) && value > least; };
     require(!width || *width >= 1, "width", width.value_or(1), "at least 1, or none for the whole surface");

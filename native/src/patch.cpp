@@ -17,7 +17,7 @@ namespace {
 /// Collects polygons ring by ring and numbers their vertices.
 class PatchBuilder {
   public:
-    PatchBuilder(const Surface& surface, const Contour& contour) : surface_(surface) {
+    PatchBuilder(const Surface& surface, const Contour& contour, const Beat& beat) : surface_(surface), beat_(beat) {
         patch_.closed = contour.closed;
         patch_.given = contour;
         for (const int v : snapped_contour(surface, contour)) patch_.contour.push_back(local_vertex(v));
@@ -26,7 +26,10 @@ class PatchBuilder {
     void add_rings(std::optional<int> rings) {
         std::size_t begin = 0;
         for (int ring = 0; (!rings || ring < *rings) && begin < patch_.vertex.size(); ++ring) {
-            for (const std::size_t end = patch_.vertex.size(); begin < end; ++begin) add_star(patch_.vertex[begin]);
+            for (const std::size_t end = patch_.vertex.size(); begin < end; ++begin) {
+                beat(begin);
+                add_star(patch_.vertex[begin]);
+            }
         }
         patch_.first_face.push_back(static_cast<int>(patch_.polygon.size()));
     }
@@ -39,10 +42,13 @@ class PatchBuilder {
 
   private:
     const Surface& surface_;
+    const Beat& beat_;
     Patch patch_;
     std::unordered_map<int, int> local_;
     std::unordered_set<int> met_;
     std::vector<int> triangle_;
+
+    void beat(std::size_t i) const { beat_at(i, beat_); }
 
     int local_vertex(int vertex) {
         const auto [entry, fresh] = local_.emplace(vertex, static_cast<int>(patch_.vertex.size()));
@@ -80,6 +86,7 @@ class PatchBuilder {
         patch_.halfedge.assign(mesh.n_halfedges(), -1);
         patch_.diagonal.assign(mesh.n_edges(), 0);
         for (std::size_t f = 0; f < triangle_.size(); ++f) {
+            beat(f);
             auto h = mesh.halfedge_handle(PatchMesh::FaceHandle(static_cast<int>(f)));
             for (int corner = 0; corner < 3; ++corner, h = mesh.next_halfedge_handle(h)) {
                 const int from = patch_.vertex[mesh.from_vertex_handle(h).idx()];
@@ -100,7 +107,10 @@ class PatchBuilder {
 
     void measure_distances() {
         const DistanceField field(surface_, patch_.given);
-        for (const int v : patch_.vertex) patch_.distance.push_back(field.at(v));
+        for (const int v : patch_.vertex) {
+            beat(patch_.distance.size());
+            patch_.distance.push_back(field.at(v));
+        }
     }
 };
 
@@ -115,12 +125,12 @@ bool has_neighbor_along_edges(const Surface& surface, const Contour& contour) {
     return !snapped.empty();
 }
 
-Patch make_patch(const Surface& surface, const Contour& contour, std::optional<int> rings) {
+Patch make_patch(const Surface& surface, const Contour& contour, std::optional<int> rings, const Beat& beat) {
     if (!has_neighbor_along_edges(surface, contour)) {
         throw InvalidInput(ErrorCode::no_neighbour,
                            "no simple contour along mesh edges lies beside the given one, so that no band can grow from it");
     }
-    PatchBuilder builder(surface, contour);
+    PatchBuilder builder(surface, contour, beat);
     builder.add_rings(rings);
     return builder.finish();
 }

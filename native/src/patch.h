@@ -3,6 +3,8 @@
 
 #include <mrc/surface.h>
 
+#include "beat.h"
+
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 #include <algorithm>
@@ -54,6 +56,6 @@ bool has_neighbor_along_edges(const Surface& surface, const Contour& contour);
 /// Cuts out the neighborhood of a contour that `checked_contour` gave.
 /// @throws InvalidInput where it has no neighbor along edges.
 /// `rings`: how far the patch reaches; none: to the whole connected component.
-Patch make_patch(const Surface& surface, const Contour& contour, std::optional<int> rings);
+Patch make_patch(const Surface& surface, const Contour& contour, std::optional<int> rings, const Beat& beat = {});
 
 }  // namespace mrc

@@ -39,6 +39,12 @@ class ProgressMonitor {
         beat();
     }
 
+    /// For what even a cancelled call needs: only an exception of the caller's own function ends it.
+    void essential_beat() {
+        if (due()) ask();
+        if (failed_) throw Cancelled();
+    }
+
     /// The same for a thread that only waits for others.
     void idle() {
         if (due()) ask();
@@ -51,7 +57,7 @@ class ProgressMonitor {
     using Clock = std::chrono::steady_clock;
     const Progress& progress_;
     const std::thread::id caller_;
-    std::atomic<bool> cancelled_ = false;
+    std::atomic<bool> cancelled_ = false, failed_ = false;
     double share_ = 0.0;
     Clock::time_point last_ = Clock::now();
     std::exception_ptr failure_;
@@ -66,6 +72,7 @@ class ProgressMonitor {
             if (!progress_(share_)) cancelled_ = true;
         } catch (...) {
             failure_ = std::current_exception();
+            failed_ = true;
             cancelled_ = true;
         }
         last_ = Clock::now();
@@ -75,5 +82,18 @@ class ProgressMonitor {
         if (cancelled_) throw Cancelled();
     }
 };
+
+/// Does work(monitor); false where the caller cancelled it. What the caller's function throws comes through.
+template <class Work>
+bool with_monitor(const Progress& progress, Work&& work) {
+    ProgressMonitor monitor(progress);
+    try {
+        work(monitor);
+        return true;
+    } catch (const ProgressMonitor::Cancelled&) {
+        if (monitor.failure()) std::rethrow_exception(monitor.failure());
+        return false;
+    }
+}
 
 }  // namespace mrc

@@ -38,7 +38,7 @@ struct Tree {
 
 /// Breadth first over the triangles that `inside` admits.
 template <class Inside>
-Tree grow_tree(const Surface& surface, const std::vector<int>& seeds, Inside&& inside) {
+Tree grow_tree(const Surface& surface, const std::vector<int>& seeds, Inside&& inside, const Beat& beat) {
     Tree tree;
     std::unordered_map<int, char> met;
     const auto enter = [&](int triangle, int leaving) {
@@ -48,6 +48,7 @@ Tree grow_tree(const Surface& surface, const std::vector<int>& seeds, Inside&& i
     };
     for (const int seed : seeds) enter(seed, -1);
     for (std::size_t i = 0; i < tree.triangles.size(); ++i) {
+        beat_at(i, beat);
         for (int h = 3 * tree.triangles[i]; h < 3 * tree.triangles[i] + 3; ++h) {
             const int twin = surface.twin(h);
             if (twin >= 0 && inside(twin / 3)) enter(twin / 3, twin);
@@ -57,9 +58,10 @@ Tree grow_tree(const Surface& surface, const std::vector<int>& seeds, Inside&& i
 }
 
 /// Gathers the contents towards the root: the form on the edge that a triangle leaves by makes up its circulation.
-EdgeForm gather(const Surface& surface, const Tree& tree, std::span<const double> density) {
+EdgeForm gather(const Surface& surface, const Tree& tree, std::span<const double> density, const Beat& beat) {
     EdgeForm form(surface);
     for (std::size_t i = tree.triangles.size(); i-- > 0;) {
+        beat_at(i, beat);
         if (tree.leaving[i] < 0) continue;
         const int first = 3 * tree.triangles[i];
         const double circulation = form.on(first) + form.on(first + 1) + form.on(first + 2);
@@ -80,9 +82,10 @@ int outside(const Surface& surface, const std::vector<int>& triangles) {
 }
 
 /// True where these triangles, a connected component, close up to a sphere: then every contour parts them in two.
-bool is_sphere(const Surface& surface, const std::vector<int>& triangles) {
+bool is_sphere(const Surface& surface, const std::vector<int>& triangles, const Beat& beat) {
     std::unordered_set<int> vertices;
     for (const int t : triangles) {
+        beat_at(vertices.size(), beat);
         for (int h = 3 * t; h < 3 * t + 3; ++h) {
             if (surface.twin(h) < 0) return false;
             vertices.insert(surface.from(h));
@@ -134,10 +137,11 @@ double EdgeForm::along(const Contour& contour) const {
 }
 
 EdgeForm region_form(const Surface& surface, const Patch& patch, const Band& band, const Flow& flow,
-                     std::span<const double> density, double reached) {
+                     std::span<const double> density, double reached, const Beat& beat) {
     std::unordered_map<int, char> inside;
     for (const auto face : patch.mesh.faces()) {
         if (!band.face[face.idx()]) continue;
+        beat_at(inside.size(), beat);
         const auto h = patch.mesh.halfedge_handle(face);
         inside.emplace(patch.halfedge[h.idx()] / 3, 1);
     }
@@ -151,9 +155,10 @@ EdgeForm region_form(const Surface& surface, const Patch& patch, const Band& ban
         break;
     }
     if (root < 0) return EdgeForm(surface);
-    Tree tree = grow_tree(surface, {root}, [&](int t) { return inside.contains(t); });
+    Tree tree = grow_tree(
+        surface, {root}, [&](int t) { return inside.contains(t); }, beat);
     tree.leaving[0] = exit;
-    EdgeForm form = gather(surface, tree, density);
+    EdgeForm form = gather(surface, tree, density, beat);
     const double gauge = reached - form.along(patch.given);
     for (const auto edge : patch.mesh.edges()) {
         if (!band.edge[edge.idx()]) continue;
@@ -164,7 +169,8 @@ EdgeForm region_form(const Surface& surface, const Patch& patch, const Band& ban
     return form;
 }
 
-double enclosed_change(const Surface& surface, std::span<const double> density, const Contour& from, const Contour& to) {
+double enclosed_change(const Surface& surface, std::span<const double> density, const Contour& from, const Contour& to,
+                       const Beat& beat) {
     std::vector<int> seeds;
     for (const Contour* contour : {&from, &to}) {
         for (const SurfacePoint& p : contour->points) {
@@ -172,17 +178,17 @@ double enclosed_change(const Surface& surface, std::span<const double> density, 
         }
     }
     const auto everywhere = [](int) { return true; };
-    const int root = outside(surface, grow_tree(surface, seeds, everywhere).triangles);
-    Tree tree = grow_tree(surface, {root}, everywhere);
+    const int root = outside(surface, grow_tree(surface, seeds, everywhere, beat).triangles);
+    Tree tree = grow_tree(surface, {root}, everywhere, beat);
     for (int h = 3 * root; h < 3 * root + 3; ++h) {
         if (surface.twin(h) == Surface::border) tree.leaving[0] = h;  // through the border, so that the root counts too
     }
-    const EdgeForm form = gather(surface, tree, density);
+    const EdgeForm form = gather(surface, tree, density, beat);
     const double change = form.along(to) - form.along(from);
-    if (!is_sphere(surface, tree.triangles)) return change;
+    if (!is_sphere(surface, tree.triangles, beat)) return change;
     // There a contour may pass the root. The form misses the whole where the root is on a contour's left: where its area is negative.
     const std::vector<double> ones(surface.face_count(), 1.0);
-    const EdgeForm area = gather(surface, tree, ones);
+    const EdgeForm area = gather(surface, tree, ones, beat);
     double total = 0.0;
     for (const int t : tree.triangles) total += content(surface, density, t);
     return change + total * ((area.along(to) < 0.0) - (area.along(from) < 0.0));

@@ -38,10 +38,11 @@ class EdgeForm {
 /// `density`: of each surface face, per area. `reached`: what the integral along the patch's given contour is to be: the change of
 /// the enclosed integral since the first given contour.
 EdgeForm region_form(const Surface& surface, const Patch& patch, const Band& band, const Flow& flow,
-                     std::span<const double> density, double reached);
+                     std::span<const double> density, double reached, const Beat& beat = {});
 
 /// The change of the integral of a density that a contour encloses on its left, from one closed contour to another that can be moved
 /// into it. What it passes holds no border of the mesh; on a mesh without one it does not hold the face farthest from both.
-double enclosed_change(const Surface& surface, std::span<const double> density, const Contour& from, const Contour& to);
+double enclosed_change(const Surface& surface, std::span<const double> density, const Contour& from, const Contour& to,
+                       const Beat& beat = {});
 
 }  // namespace mrc

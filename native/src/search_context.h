@@ -17,7 +17,7 @@ void check_scales(const Surface& surface, const Scales& scales);
 /// Scales, curvature and energy, made once for a contour.
 struct SearchContext {
     SearchContext(const Surface& surface, const Contour& contour, const Options& options, const std::vector<Attractor>& attractors,
-                  const std::optional<Scales>& given);
+                  const std::optional<Scales>& given, const Beat& beat = {});
     SearchContext(const SearchContext&) = delete;
     SearchContext& operator=(const SearchContext&) = delete;
 

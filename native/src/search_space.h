@@ -19,8 +19,10 @@ struct SearchSpace {
     Flow flow;
     ContourGraph graph;
 };
+/// Where `progress` cancels, it is empty.
 /// @throws what `optimize` does.
 SearchSpace search_space(const Surface& surface, const Contour& contour, const Options& options = {},
-                         const Constraints& constraints = {}, const std::optional<Scales>& scales = std::nullopt);
+                         const Constraints& constraints = {}, const std::optional<Scales>& scales = std::nullopt,
+                         const Progress& progress = {});
 
 }  // namespace mrc

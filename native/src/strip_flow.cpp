@@ -69,12 +69,13 @@ class Profile {
 /// Carries the flow from the contour outwards, strip by strip.
 class StripFlow {
   public:
-    StripFlow(const Patch& patch, const Band& band, FlowKind kind, const std::vector<double>& fixed)
+    StripFlow(const Patch& patch, const Band& band, FlowKind kind, const std::vector<double>& fixed, const Beat& beat)
         : patch_(patch),
           mesh_(patch.mesh),
           band_(band),
           kind_(kind),
           fixed_(fixed),
+          beat_(beat),
           strips_(strip_boundaries(patch, band)),
           opened_(cut_open(patch, band, strips_)),
           value_(mesh_.n_vertices(), 0.0),
@@ -97,6 +98,7 @@ class StripFlow {
     const Band& band_;
     const FlowKind kind_;
     const std::vector<double>& fixed_;  // of each vertex: 0 or 1 at the ends of an open curve, below 0 elsewhere
+    const Beat& beat_;
     const std::vector<Curve> strips_;
     const OpenedBand opened_;
     std::vector<double> value_;
@@ -169,6 +171,7 @@ class StripFlow {
     void spread(Strip known, const std::vector<Curve>& curves) {
         set_index(known, known_index_);
         for (const Curve& curve : curves) {
+            if (beat_) beat_();
             Strip next = unroll(curve);
             set_index(next, next_index_);
             extend(known, next);
@@ -231,8 +234,8 @@ class StripFlow {
 
 }  // namespace
 
-Flow strip_flow(const Patch& patch, const Band& band, FlowKind kind, const std::vector<double>& fixed) {
-    return StripFlow(patch, band, kind, fixed).run();
+Flow strip_flow(const Patch& patch, const Band& band, FlowKind kind, const std::vector<double>& fixed, const Beat& beat) {
+    return StripFlow(patch, band, kind, fixed, beat).run();
 }
 
 }  // namespace mrc

@@ -19,6 +19,6 @@ namespace mrc {
 /// strip that runs along the piece of mesh border at 0 rises from the last vertex that it has there, and likewise up to the first
 /// one at 1. What only the band's end polygons hold lies evenly between the vertices of strips beside it.
 /// `fixed`: of each patch vertex, 0 or 1 where an end holds it, below 0 elsewhere; only open curves need it.
-Flow strip_flow(const Patch& patch, const Band& band, FlowKind kind, const std::vector<double>& fixed);
+Flow strip_flow(const Patch& patch, const Band& band, FlowKind kind, const std::vector<double>& fixed, const Beat& beat = {});
 
 }  // namespace mrc

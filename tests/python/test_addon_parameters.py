@@ -106,3 +106,7 @@ def test_another_version_asks_for_a_restart(monkeypatch):
     monkeypatch.setattr(native, "VERSION", "0.0.1")
     with pytest.raises(native.Unavailable, match="restart Blender"):
         native.module()
+
+
+def test_the_defaults_are_the_recommended_options():
+    assert mrc.Options(**parameters.native_options()) == mrc.Options.recommended()

@@ -20,8 +20,9 @@ struct VertexCurvature {
 };
 
 /// The curvatures at all vertices; without scales, h is the whole surface's mean edge length.
+/// `progress` is called every few milliseconds, with 0 until all is done; where it cancels, the result is empty.
 /// @throws InvalidInput for options out of range and where every edge has length 0.
 std::vector<VertexCurvature> curvature(const Surface& surface, const Options& options = {},
-                                       const std::optional<Scales>& scales = std::nullopt);
+                                       const std::optional<Scales>& scales = std::nullopt, const Progress& progress = {});
 
 }  // namespace mrc

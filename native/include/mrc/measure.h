@@ -18,11 +18,14 @@ struct Measure {
     double objective =
         0.0;  ///< what is minimized: the ratio, or with a length bias ratio / K + length_bias max(length / L0, length_floor)
     double salience = 0.0;  ///< minus the ratio of eq. 3.2's energy alone, over K
+
+    bool operator==(const Measure&) const = default;
 };
 
 /// The contour's ratio, without optimizing. Of the constraints, the attractors and the region term weigh.
+/// `progress` is called every few milliseconds; where it cancels, all is 0.
 /// @throws InvalidInput and TooLarge as `optimize` does; barriers do not matter.
 Measure measure(const Surface& surface, const Contour& contour, const Options& options = {}, const Constraints& constraints = {},
-                const std::optional<Scales>& scales = std::nullopt);
+                const std::optional<Scales>& scales = std::nullopt, const Progress& progress = {});
 
 }  // namespace mrc

@@ -5,6 +5,7 @@
 /// functions are as safe. A progress function is called on the thread that made the call.
 #pragma once
 
+#include <mrc/band.h>
 #include <mrc/check_contour.h>
 #include <mrc/close_contour.h>
 #include <mrc/constraints.h>

@@ -48,6 +48,7 @@ struct Statistics {
 /// What a search found. Points, ratios and scales are in the mesh's unit of length.
 struct Result {
     Contour contour;
+    double length = 0.0;  ///< of the contour returned, along its segments
     Status status = Status::unchanged;
     Reason reason_code = Reason::none;
     std::string reason;                               ///< the same in words

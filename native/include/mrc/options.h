@@ -58,8 +58,13 @@ struct Options {
     std::optional<double> min_salience;
     int threads = 0;  ///< on which several contours are optimized; 0: as many as the machine has; no result depends on it
 
+    /// The settings whose contours lie closest to where people draw part boundaries; the defaults above are those of the thesis.
+    static Options recommended();
+
     /// @throws InvalidInput that names the option, its value and its range.
     void check() const;
+
+    bool operator==(const Options&) const = default;
 };
 
 }  // namespace mrc

@@ -16,6 +16,8 @@ struct Scales {
     double clamp = std::numeric_limits<double>::infinity();  ///< |kappa_min| (ridge: |kappa_max|) of features is cut off here
     int n0 = 0;                                              ///< its number of arcs, with the run's Steiner points
     Contour given;                                           ///< the contour itself
+
+    bool operator==(const Scales&) const = default;
 };
 
 }  // namespace mrc
