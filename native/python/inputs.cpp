@@ -55,6 +55,15 @@ bool is_nested(const py::object& value, int depth) {
     return false;
 }
 
+bool to_bool(const py::object& value, const char* name) {
+    py::detail::make_caster<bool> caster;
+    if (!caster.load(value, true)) {
+        throw py::type_error(std::string(name) + " must be True or False, not " +
+                             py::cast<std::string>(py::type::of(value).attr("__name__")));
+    }
+    return caster;
+}
+
 std::optional<mrc::Scales> to_scales(const py::object& scales) {
     if (scales.is_none()) return std::nullopt;
     if (!py::isinstance<mrc::Scales>(scales)) throw py::type_error("scales must be the Scales of an earlier result, or None");
@@ -88,7 +97,8 @@ mrc::Progress interruption() {
 
 mrc::Contour to_contour(const py::object& vertices, bool closed, const py::object& edge_vertices,
                         const py::object& edge_parameters) {
-    if (vertices.is_none() == edge_vertices.is_none())
+    const bool stray = edge_vertices.is_none() && !edge_parameters.is_none();
+    if (vertices.is_none() == edge_vertices.is_none() || stray)
         throw py::value_error("give either vertices, or edge_vertices with edge_parameters");
     if (py::isinstance<mrc::Contour>(vertices)) return vertices.cast<const mrc::Contour&>();
     if (py::isinstance<PyResult>(vertices)) return vertices.cast<const PyResult&>().result.contour;
@@ -151,7 +161,7 @@ std::vector<mrc::Task> to_tasks(const Iterable& contours, const py::object& clos
     std::vector<mrc::Task> tasks;
     for (std::size_t i = 0; i < count; ++i) {
         const mrc::Constraints own = to_constraints(vertices_each[i], edges_each[i], py::tuple(), py::tuple(), nullptr);
-        mrc::Task task{listed_contour(list[i], py::bool_(closed_each[i])), shared, std::nullopt};
+        mrc::Task task{listed_contour(list[i], to_bool(closed_each[i], "closed")), shared, std::nullopt};
         task.constraints.required_vertices = own.required_vertices;
         task.constraints.required_edges = own.required_edges;
         task.scales = to_scales(scales_each[i]);

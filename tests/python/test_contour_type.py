@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A Contour is a value, and stands wherever vertices do; what else results say of theirs: length, and the sides of its band."""
+"""A Contour is a value and stands wherever vertices do; results have its length, and bands its sides."""
 
 import meshes
 import mrcontour as mrc
