@@ -255,7 +255,7 @@ Dict search_space(const Surface& surface, const py::object& vertices, bool close
     mrc::SearchSpace space;
     {
         const py::gil_scoped_release release;
-        space = mrc::search_space(surface, contour, options, {}, nullptr, interruption);
+        space = mrc::search_space(surface, contour, options, {}, std::nullopt, interruption);
     }
     Dict d;
     describe_band(d, space);

@@ -52,13 +52,13 @@ class ContourOptimization {
   public:
     /// `contour` must be checked; surface, options and constraints must outlive the object.
     ContourOptimization(const Surface& surface, const Contour& contour, const Options& options, const Constraints& constraints,
-                        const std::optional<Scales>& scales, const Beat& beat);
+                        const std::optional<Scales>& scales, const Beat& beat = {});
 
     /// Iterations with one k, measured with its Steiner points: a segment of the history.
     void begin_phase(int steiner);
     /// Makes the patch of an iteration.
-    void cut_out(const Beat& beat);
-    void grow(Partition* partition, int number, const Beat& beat);
+    void cut_out(const Beat& beat = {});
+    void grow(Partition* partition, int number, const Beat& beat = {});
     /// Finds the best contour of the band and takes it where it is better than the one so far.
     void search(Partition* partition, int number, const Beat& beat);
     Result finish();
