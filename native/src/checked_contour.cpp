@@ -64,9 +64,8 @@ void check_distinct(const Contour& contour) {
         std::vector<Element> elements;
         std::ranges::transform(contour.points, std::back_inserter(elements), element_of);
         throw InvalidInput(ErrorCode::too_short,
-                           "the contour is too short: " + std::string(contour.closed ? "a closed" : "an open") +
-                               " contour needs at least " + std::to_string(least) + " vertices, and this one has " +
-                               std::to_string(contour.points.size()),
+                           "the contour has " + std::to_string(contour.points.size()) + " vertices: " +
+                               (contour.closed ? "a closed" : "an open") + " contour needs at least " + std::to_string(least),
                            elements);
     }
     std::set<std::tuple<int, int, long long>> seen;

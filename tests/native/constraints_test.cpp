@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -42,7 +43,7 @@ TEST_F(ConstraintsOf, a_mesh_may_name_all_its_vertices_and_edges) {
     constraints.required_edges = {{0, 1}, {1, 0}};
     constraints.barriers = {{4, 5}};
     constraints.attractors = {{8, 1e-9, -3.0, 1e-9}, {0, 1e50, 0.0, {}}};
-    constraints.region_density = density;
+    constraints.region_density = std::make_shared<const std::vector<double>>(density);
     EXPECT_EQ(refusal(constraints), "");
     EXPECT_EQ(refusal({}), "");
 }
@@ -83,13 +84,13 @@ TEST_F(ConstraintsOf, a_density_has_a_number_for_each_face) {
     for (const std::size_t count : {1U, 3U, 5U}) {
         const std::vector<double> density(count, 1.0);
         Constraints constraints;
-        constraints.region_density = density;
+        constraints.region_density = std::make_shared<const std::vector<double>>(density);
         EXPECT_NAMES(std::to_string(count) + " entries for 4 faces", refusal(constraints));
     }
     for (const double bad : {1e51, -infinite, none}) {
         const std::vector<double> density{0.0, 0.0, 0.0, bad};
         Constraints constraints;
-        constraints.region_density = density;
+        constraints.region_density = std::make_shared<const std::vector<double>>(density);
         EXPECT_NAMES("of face 3", refusal(constraints));
     }
 }

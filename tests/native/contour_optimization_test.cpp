@@ -31,7 +31,7 @@ class Optimized : public testing::Test {
 
 TEST_F(Optimized, step_by_step_it_is_what_one_call_gives) {
     const Options options = settings(2, 2);
-    ContourOptimization steps(surface, given, options, unconstrained, nullptr);
+    ContourOptimization steps(surface, given, options, unconstrained, std::nullopt);
     for (const auto& [steiner, iterations] : {std::pair(0, 2), std::pair(1, 2)}) {
         steps.begin_phase(steiner);
         for (int i = 0; i < iterations && steps.moving(); ++i) {
@@ -67,7 +67,7 @@ TEST_F(Optimized, what_it_returns_is_a_contour_with_the_ratio_that_it_says) {
     const Options options = settings(1, 2);
     const Result found = optimize(surface, given, options);
     EXPECT_EQ(checked_contour(surface, found.contour), found.contour);
-    const Measure measured = measure(surface, found.contour, options, {}, &found.scales);
+    const Measure measured = measure(surface, found.contour, options, {}, found.scales);
     EXPECT_NEAR(measured.ratio, found.ratio, 1e-12);
     EXPECT_NEAR(measured.objective, found.objective, 1e-12);
     EXPECT_NEAR(measured.salience, found.salience, 1e-12);
@@ -76,7 +76,7 @@ TEST_F(Optimized, what_it_returns_is_a_contour_with_the_ratio_that_it_says) {
 TEST_F(Optimized, from_the_result_nothing_better_is_found) {
     const Options options = settings(20, 0);
     const Result first = optimize(surface, given, options);
-    const Result again = optimize(surface, first.contour, options, {}, &first.scales);
+    const Result again = optimize(surface, first.contour, options, {}, first.scales);
     EXPECT_EQ(again.status, Status::unchanged);
     EXPECT_EQ(again.reason_code, Reason::already_best);
     EXPECT_EQ(again.contour, first.contour);
@@ -103,7 +103,7 @@ TEST_F(Optimized, where_nothing_is_salient_enough_the_given_contour_stays) {
 
 TEST_F(Optimized, cancelled_it_is_the_given_contour) {
     int left = 2;
-    const Result found = optimize(surface, given, settings(3, 0), {}, nullptr, [&](double) { return --left > 0; });
+    const Result found = optimize(surface, given, settings(3, 0), {}, std::nullopt, [&](double) { return --left > 0; });
     EXPECT_EQ(found.status, Status::cancelled);
     EXPECT_EQ(found.contour, given);
     EXPECT_EQ(found.objective, found.initial_objective);
@@ -115,7 +115,7 @@ TEST_F(Optimized, its_progress_goes_from_zero_to_one_without_falling) {
         shares.push_back(share);
         return true;
     };
-    const Result found = optimize(surface, given, settings(2, 1), {}, nullptr, listen);
+    const Result found = optimize(surface, given, settings(2, 1), {}, std::nullopt, listen);
     EXPECT_EQ(found.contour, optimize(surface, given, settings(2, 1)).contour);
     ASSERT_FALSE(shares.empty());
     EXPECT_TRUE(std::ranges::is_sorted(shares));

@@ -33,7 +33,7 @@ class EnergyOf : public testing::Test {
 };
 
 TEST_F(EnergyOf, an_arc_is_that_of_the_thesis) {
-    const SearchContext context(torus, across, options, {}, nullptr);
+    const SearchContext context(torus, across, options, {}, std::nullopt);
     std::mt19937 random(2);
     std::uniform_real_distribution<double> any(-1.0, 1.0);
     const auto vector = [&] { return Vec3(any(random), any(random), any(random)); };
@@ -48,7 +48,7 @@ TEST_F(EnergyOf, an_arc_is_that_of_the_thesis) {
 }
 
 TEST_F(EnergyOf, a_line_along_a_valley_is_its_curvature_and_of_one_across_it_none) {
-    const SearchContext context(hollow, loop, options, {}, nullptr);
+    const SearchContext context(hollow, loop, options, {}, std::nullopt);
     std::vector<int> line;
     for (int row = 5; row < 12; ++row) line.push_back(around * row);
     const Measure along = measure(hollow, context.energy, vertex_contour(line, false), 0);
@@ -66,7 +66,7 @@ TEST_F(EnergyOf, a_contour_is_that_of_the_reversed_one) {
         Contour contour = vertex_contour(jagged, closed);
         contour.points[4] = {2, 3, 0.25};
         contour.points[5] = {18, 2, 0.5};
-        const SearchContext context(torus, across, options, {{3, 0.8, 1.0, {}}}, nullptr);
+        const SearchContext context(torus, across, options, {{3, 0.8, 1.0, {}}}, std::nullopt);
         for (const int steiner : {0, 3}) {
             const Measure one = measure(torus, context.energy, contour, steiner);
             const Measure other = measure(torus, context.energy, made::reversed(contour), steiner);
@@ -81,7 +81,7 @@ TEST_F(EnergyOf, a_crease_grows_with_the_sine_of_its_angle_up_to_three) {
     for (const double slope : {-1.0, -0.1, 0.2, 2.0}) {
         const Surface fold =
             made::plate(8, 8).mapped([&](const Vec3& p) { return Vec3(p.x(), p.y(), slope * std::abs(p.x() - 4)); }).surface();
-        const SearchContext context(fold, vertex_contour(std::vector<int>{30, 39, 48}, false), options, {}, nullptr);
+        const SearchContext context(fold, vertex_contour(std::vector<int>{30, 39, 48}, false), options, {}, std::nullopt);
         const double unit = 0.5 * context.scales.K, angle = -2.0 * std::atan(slope);
         const int crease = fold.find_halfedge(40, 49), flat = fold.find_halfedge(42, 51);
         EXPECT_NEAR(context.energy.crease_cost(crease), unit * std::min(3.0, std::exp(3.0 * std::sin(angle))), 1e-12);
@@ -93,7 +93,7 @@ TEST_F(EnergyOf, a_crease_grows_with_the_sine_of_its_angle_up_to_three) {
 
 TEST_F(EnergyOf, a_point_has_the_anchors_square_of_its_distance_and_what_attracts_it) {
     options.anchor = 0.7;
-    const SearchContext context(hollow, loop, options, {{8 * around, 0.6, 2.0, 0.5}}, nullptr);
+    const SearchContext context(hollow, loop, options, {{8 * around, 0.6, 2.0, 0.5}}, std::nullopt);
     const auto& [h, field, scales, energy] = context;
     const double radius = scales.L0 / (2.0 * std::numbers::pi);
     for (const int row : {3, 8, 9, 10, 15}) {
@@ -106,7 +106,7 @@ TEST_F(EnergyOf, a_point_has_the_anchors_square_of_its_distance_and_what_attract
 TEST_F(EnergyOf, an_arc_ends_where_it_turns_by_more_than_it_may) {
     for (const double most : {0.3, 1.5, 3.0}) {
         options.max_turn = most;
-        const SearchContext context(hollow, loop, options, {}, nullptr);
+        const SearchContext context(hollow, loop, options, {}, std::nullopt);
         const Frame frame = context.energy.frame(vertex_point(8 * around));
         for (double turn = 0.05; turn < 3.14; turn += 0.1) {
             const Vec3 on = std::cos(turn) * frame.direction - std::sin(turn) * frame.across;

@@ -26,7 +26,7 @@ class LineGraph : public testing::TestWithParam<std::tuple<bool, int>> {
     const SearchSpace space = search_space(surface, contour, options);
     const ContourGraph& graph = space.graph;
     const WeightedGraph& search = space.graph.search;
-    const SearchContext context{surface, contour, options, {}, nullptr};
+    const SearchContext context{surface, contour, options, {}, std::nullopt};
 
     static Options settings() {
         Options options;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 namespace mrc {
@@ -87,15 +88,15 @@ TEST_F(MeasureOf, a_region_adds_the_density_that_came_in_since_the_scales_were_m
     options.region_weight = 2.0;
     const std::vector<double> density(surface.face_count(), 0.5);
     Constraints constraints;
-    constraints.region_density = density;
+    constraints.region_density = std::make_shared<const std::vector<double>>(density);
     Scales scales{.h = 0.25, .K = 1.0, .kappa_0 = 3.0, .L0 = 6.0, .given = made::ring(around, 8)};
     const Contour moved = made::ring(around, 11);
     const double row = around * 2.0 * std::sin(std::numbers::pi / around) * 0.25;
-    const double without = measure(surface, moved, options, {}, &scales).numerator;
+    const double without = measure(surface, moved, options, {}, scales).numerator;
     // On a tube turned inside out the left of a ring lies below.
-    EXPECT_NEAR(measure(surface, moved, options, constraints, &scales).numerator - without, 2.0 / 6.0 * 0.5 * 3.0 * row, 1e-12);
+    EXPECT_NEAR(measure(surface, moved, options, constraints, scales).numerator - without, 2.0 / 6.0 * 0.5 * 3.0 * row, 1e-12);
     options.region_side = RegionSide::right;
-    EXPECT_NEAR(measure(surface, moved, options, constraints, &scales).numerator - without, -2.0 / 6.0 * 0.5 * 3.0 * row, 1e-12);
+    EXPECT_NEAR(measure(surface, moved, options, constraints, scales).numerator - without, -2.0 / 6.0 * 0.5 * 3.0 * row, 1e-12);
 }
 
 TEST_F(MeasureOf, an_attractor_that_is_felt_lowers_the_ratio_and_a_barrier_does_nothing) {

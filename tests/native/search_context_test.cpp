@@ -19,7 +19,7 @@ class ContextOf : public testing::Test {
 };
 
 TEST_F(ContextOf, a_first_search_has_the_scales_of_its_contour) {
-    const SearchContext context(surface, contour, options, {}, nullptr);
+    const SearchContext context(surface, contour, options, {}, std::nullopt);
     EXPECT_EQ(context.h, mean_edge_length(surface, contour));
     EXPECT_EQ(context.scales.h, context.h);
     EXPECT_EQ(context.scales.given, contour);
@@ -27,7 +27,8 @@ TEST_F(ContextOf, a_first_search_has_the_scales_of_its_contour) {
 }
 
 TEST_F(ContextOf, a_search_that_goes_on_has_the_scales_of_the_first) {
-    const SearchContext first(surface, contour, options, {}, nullptr), on(surface, made::ring(16, 3), options, {}, &first.scales);
+    const SearchContext first(surface, contour, options, {}, std::nullopt),
+        on(surface, made::ring(16, 3), options, {}, first.scales);
     EXPECT_EQ(on.h, first.h);
     EXPECT_EQ(on.scales.given, contour);
     EXPECT_EQ(on.scales.L0, first.scales.L0);
@@ -36,7 +37,7 @@ TEST_F(ContextOf, a_search_that_goes_on_has_the_scales_of_the_first) {
 }
 
 TEST_F(ContextOf, scales_of_another_surface_or_that_are_no_numbers_are_refused) {
-    const Scales good = SearchContext(surface, contour, options, {}, nullptr).scales;
+    const Scales good = SearchContext(surface, contour, options, {}, std::nullopt).scales;
     EXPECT_NO_THROW(check_scales(surface, good));
     EXPECT_THROW(check_scales(made::tube(16, 5).surface(), good), InvalidInput);
     for (double Scales::*field : {&Scales::h, &Scales::K, &Scales::kappa_0, &Scales::L0}) {
@@ -44,7 +45,7 @@ TEST_F(ContextOf, scales_of_another_surface_or_that_are_no_numbers_are_refused) 
             Scales scales = good;
             scales.*field = bad;
             EXPECT_THROW(check_scales(surface, scales), InvalidInput);
-            EXPECT_THROW(SearchContext(surface, contour, options, {}, &scales), InvalidInput);
+            EXPECT_THROW(SearchContext(surface, contour, options, {}, scales), InvalidInput);
         }
     }
 }

@@ -57,7 +57,7 @@ TEST_P(Traced, a_contour_has_the_chords_of_its_path_in_their_order) {
 }
 
 TEST_P(Traced, a_contour_measures_what_its_path_weighs) {
-    const SearchContext context(surface, given(), options(), {}, nullptr);
+    const SearchContext context(surface, given(), options(), {}, std::nullopt);
     const Measure found = measure(surface, context.energy, traced, steiner);
     EXPECT_NEAR(found.numerator, best.numerator, 1e-9);
     EXPECT_NEAR(found.length, best.length, 1e-9);

@@ -13,6 +13,7 @@ PARTS = {
     "checked_contour": "patch",
     "checked_input": "measure",
     "directed_segments": "graph",
+    "element_names": "errors",
     "exclude_segments": "graph",
     "exclusion": "partition",
     "graph_input": "graph",
