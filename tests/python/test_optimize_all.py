@@ -97,7 +97,7 @@ def test_loops_stay_apart_in_any_order_on_any_number_of_threads(kind, seed):
             assert sorted(order[j] for j in again[place].held_back_by) == list(results[i].held_back_by)
 
 
-OPTION_NAMES = [name for name in dir(mrc.Options) if not name.startswith("_")]
+OPTION_NAMES = [name for name, value in vars(mrc.Options).items() if isinstance(value, property)]
 
 
 def test_contour_not_held_back_finds_what_it_finds_alone():
