@@ -120,7 +120,7 @@ class ClosingSearch {
             if (vertex == goal) return path_to(place.previous);
             surface_.for_each_real_edge(vertex, [&](int neighbor, int) { relax(vertex, neighbor, entry.first); });
         }
-        throw InvalidInput(ErrorCode::no_way_round,
+        throw InvalidInput(ErrorCode::no_path_around,
                            "nothing leads from vertex " + std::to_string(start) + ", one end of the chain, around to vertex " +
                                std::to_string(goal) +
                                ", its other end: the surface does not turn away behind the chain, or borders, hidden or "

@@ -51,14 +51,14 @@ std::string_view code_name(ErrorCode code) {
             return "other_surface";
         case ErrorCode::outside_band:
             return "outside_band";
-        case ErrorCode::touches_neighbour:
-            return "touches_neighbour";
+        case ErrorCode::touches_other_contour:
+            return "touches_other_contour";
         case ErrorCode::not_open:
             return "not_open";
         case ErrorCode::not_on_vertices:
             return "not_on_vertices";
-        case ErrorCode::no_way_round:
-            return "no_way_round";
+        case ErrorCode::no_path_around:
+            return "no_path_around";
         case ErrorCode::too_large:
             return "too_large";
         case ErrorCode::infeasible:

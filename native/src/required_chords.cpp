@@ -67,7 +67,7 @@ class RequiredChords {
         elements_.require(place_of(points_, q));
         std::vector<int> own = segments_of_edge(edge);
         if (!std::ranges::all_of(own, [&](int s) { return ambient_.segments[s].walkable; })) {
-            throw InvalidInput(ErrorCode::touches_neighbour,
+            throw InvalidInput(ErrorCode::touches_other_contour,
                                "required edge " + edge_name(a, b) + " touches another contour or its band: drop the requirement",
                                {Element::edge(a, b)});
         }

@@ -5,7 +5,6 @@ run by tests/blender."""
 import re
 from pathlib import Path
 
-import mrcontour as mrc
 import numpy as np
 import pytest
 

@@ -40,11 +40,11 @@ enum class ErrorCode {
     open_region,        ///< a region density with an open contour
     other_surface,      ///< scales of another surface
     outside_band,       ///< a required element that no contour reaches
-    touches_neighbour,  ///< a required edge that another contour or its band touches
+    touches_other_contour,  ///< a required edge that another contour or its band touches
     // close_contour
     not_open,
     not_on_vertices,
-    no_way_round,
+    no_path_around,
     // searches
     too_large,
     infeasible,
