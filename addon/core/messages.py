@@ -3,7 +3,6 @@
 
 import numpy as np
 
-from . import native
 from .parameters import SETTINGS
 
 NOTHING_SELECTED = (
@@ -22,11 +21,11 @@ _SALIENCES = (  # (least salience, its name)
     (0.25, "hardly concave"),
     (-np.inf, "nothing concave here"),
 )
-# Native errors by class, and the reasons for returning the given contour by code. The texts name settings as the panel
-# does and suggest a fix.
+# Native errors and the reasons for returning the given contour, by code. The texts name settings as the panel does and
+# suggest a fix; errors without a text here have a sentence of their own.
 _PROBLEMS = {
-    "TooLarge": "the search would need more memory than there is: lower Refinement or Width, or clear Whole Surface",
-    "Infeasible": "no contour in the band passes all required vertices: raise Width, Reach or Sharpest Turn, or remove "
+    "too_large": "the search would need more memory than there is: lower Refinement or Width, or clear Whole Surface",
+    "infeasible": "no contour in the band passes all required vertices: raise Width, Reach or Sharpest Turn, or remove "
     "some vertices from the group",
 }
 _REASONS = {
@@ -92,8 +91,13 @@ def turn_notes(outcomes, max_turn):
 
 
 def problem(error):
-    """Return an error's message for the user; native errors use the panel's terms and no indices into lists."""
-    return _PROBLEMS.get(type(error).__name__) or native.message_and_contour(error)[0]
+    """Return an error's message for the user; native errors use the panel's terms."""
+    return _PROBLEMS.get(_code(error)) or str(error)
+
+
+def _code(error):
+    """Return a native error's code; empty for other errors."""
+    return getattr(error, "code", "")
 
 
 def reason(result):
@@ -117,7 +121,7 @@ def unsearchable(error, count):
     """Return why the search failed, given how many pins lie outside the band."""
     if count:
         return pins_outside(count)
-    if type(error).__name__ == "Infeasible":
+    if _code(error) == "infeasible":
         return "No contour in the band passes all pinned vertices: click one to unpin it, or widen the band (wheel)"
     return problem(error)
 
@@ -227,13 +231,6 @@ def salience(result):
         return ""
     words = next(words for least, words in _SALIENCES if result.salience >= least)
     return f"{words.capitalize()} ({result.salience:.2f})"
-
-
-def length(result):
-    """Return the length of the contour found, in object space."""
-    points = np.asarray(result.positions)
-    ends = np.roll(points, -1, axis=0) if result.closed else points[1:]
-    return float(np.linalg.norm(ends - points[: len(ends)], axis=1).sum())
 
 
 def _statuses(results):

@@ -2,7 +2,6 @@
 """Finds the compiled module `mrcontour`, or says in plain words why it cannot be used. Needs no Blender."""
 
 import importlib
-import re
 import sys
 from pathlib import Path
 
@@ -38,10 +37,10 @@ def problem():
     return ""
 
 
-def message_and_contour(error):
-    """What a native error says, and the contour it says it of, by its place in the list; None where of none."""
-    named = re.match(r"contour (\d+): (.*)", str(error), re.DOTALL)
-    return (named[2], int(named[1])) if named else (str(error), None)
+def contours(items):
+    """The native contours of outcomes or of chains."""
+    mrc = module()
+    return [mrc.Contour(item.vertices, closed=item.closed) for item in items]
 
 
 def _import():

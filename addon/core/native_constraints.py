@@ -11,6 +11,7 @@ from .edge_paths import common_edges, contour_edges
 from .parameters import native_options
 
 _BESIDE = tuple(product((-1, 0, 1), repeat=3))  # a cell and those round it
+_NO_FACES = np.empty(0, dtype=np.int32)
 
 
 def _ids(*shape):
@@ -45,24 +46,19 @@ class Constraints:
     density: np.ndarray | None = None  # of each face
     region_strength: float = 0.0
 
-    def keywords(self, mrc, surface, contours, closed, options):
-        """Keyword arguments of mrc.optimize_all for contours along edges; `options`: those of mrc.Options, as a dict.
+    def keywords(self, mrc, surface, contours, options):
+        """Keyword arguments of mrc.optimize_all for native contours; `options`: those of mrc.Options, as a dict.
 
-        Marks along the given contours are not counted: they move with them. Raises OutsideBand.
+        Marks along the given contours are not counted: they move with them. A contour in error is given nothing, and
+        changes nothing for the others; the search says what is wrong with it. Raises OutsideBand.
         """
-        edges = np.concatenate([contour_edges(*contour) for contour in zip(contours, closed)])
-        found = {"barriers": self.barriers_beside(contours, closed)}
+        found = {"barriers": self.barriers_beside(contours)}
         if len(self.required):
-            bands = self._bands(mrc, surface, contours, closed, options)
+            bands = self._bands(mrc, surface, contours, options)
             found["required_vertices"] = assign(self.required, self.points, contours, bands)
-        weights = self._weights(edges)
+        weights = self._weights(_edges(contours))
         if len(weights):
-            length = np.linalg.norm(self.points[edges[:, 0]] - self.points[edges[:, 1]], axis=1).mean()
-            near = np.unique(np.concatenate(self._bands(mrc, surface, contours, closed, _of_all_iterations(options))))
-            felt = near[weights[near] > 0]
-            found["attractors"] = attractors(
-                self.points, felt, weights[felt], float(self.radius * length), self.strength
-            )
+            found["attractors"] = self._attractors(mrc, surface, contours, weights, options)
         if self.density is not None:
             found["region_density"] = self.density
         # Painted constraints override min_salience; and the native weight is a cost.
@@ -71,38 +67,41 @@ class Constraints:
         changed |= {"region_weight": -self.region_strength} if self.density is not None else {}
         return found | {"options": mrc.Options(**changed)}
 
-    def barriers_beside(self, contours, closed):
+    def barriers_beside(self, contours):
         """The barriers but those along the contours."""
-        return _without(self.barriers, np.concatenate([contour_edges(*contour) for contour in zip(contours, closed)]))
+        return _without(self.barriers, _edges(contours))
 
     def paints_the_right(self, mrc, surface, contour):
         """Whether what lies near a closed contour is painted more to its right than to its left."""
-        space = mrc.search_space(surface, contour, options=mrc.Options(width=4))
-        right, left = (space["vertices"][space["side"] == side] for side in (-1, 1))
-        return self._mean_density(space["faces"], right) > self._mean_density(space["faces"], left)
-
-    def _mean_density(self, faces, vertices):
-        """Of those of the faces that have one of the vertices."""
         assert self.density is not None
-        corners, starts = self._corners(faces)
-        touching = np.logical_or.reduceat(np.isin(corners, vertices), starts)
-        return self.density[faces][touching].mean() if touching.any() else 0.0
+        faces, sides = mrc.band(surface, contour, options=mrc.Options(width=4), sides=True)
+        right, left = (self.density[faces[sides == side]] for side in (-1, 1))
+        return _mean(right) > _mean(left)
 
-    def _bands(self, mrc, surface, contours, closed, options):
-        """The vertices of the faces that are searched, for each contour by itself."""
-        options = mrc.Options(**options)
-        bands = [
-            mrc.band(surface, vertices, closed=is_closed, options=options)
-            for vertices, is_closed in zip(contours, closed)
-        ]
-        return [np.unique(self._corners(faces)[0]) for faces in bands]
+    def _attractors(self, mrc, surface, contours, weights, options):
+        sound = [contour for contour in contours if mrc.check_contour(surface, contour) is None]
+        if not sound:
+            return ()
+        length = np.concatenate([_lengths(self.points, contour) for contour in sound]).mean()
+        near = np.unique(np.concatenate(self._bands(mrc, surface, sound, _of_all_iterations(options))))
+        felt = near[weights[near] > 0]
+        return attractors(self.points, felt, weights[felt], float(self.radius * length), self.strength)
+
+    def _bands(self, mrc, surface, contours, options):
+        """The vertices of the faces that are searched, for each contour by itself; none for one in error."""
+        options, bands = mrc.Options(**options), []
+        for contour in contours:
+            in_error = mrc.check_contour(surface, contour) is not None
+            faces = _NO_FACES if in_error else mrc.band(surface, contour, options=options)
+            bands.append(np.unique(self._corners(faces)))
+        return bands
 
     def _corners(self, faces):
-        """The vertices of some faces, face by face, and where each face's begin."""
+        """The vertices of some faces, face by face."""
         counts = self.face_offsets[faces + 1] - self.face_offsets[faces]
-        starts = np.cumsum(counts) - counts
-        shift = np.repeat(self.face_offsets[faces] - starts, counts)
-        return self.face_vertices[shift + np.arange(len(shift))], starts
+        before = np.cumsum(counts) - counts
+        shift = np.repeat(self.face_offsets[faces] - before, counts)
+        return self.face_vertices[shift + np.arange(len(shift))]
 
     def _weights(self, edges):
         """The pull of each vertex, or nothing where there is none."""
@@ -114,12 +113,15 @@ class Constraints:
         return weights
 
 
-def native_keywords(mrc, surface, contours, closed, settings, constraints=None):
-    """Keyword arguments of mrc.optimize_all for settings of the table, and for Constraints where there are some."""
+def native_keywords(mrc, surface, contours, settings, constraints=None):
+    """Keyword arguments of mrc.optimize_all for settings of the table, and for Constraints where there are some.
+
+    contours: native ones.
+    """
     options = native_options(**settings)
     if constraints is None:
         return {"options": mrc.Options(**options)}
-    return constraints.keywords(mrc, surface, contours, closed, options)
+    return constraints.keywords(mrc, surface, contours, options)
 
 
 def attractors(points, vertices, weights, radius, strength):
@@ -142,11 +144,11 @@ def attractors(points, vertices, weights, radius, strength):
 
 
 def assign(required, points, contours, bands):
-    """The required vertices of each contour: of those in whose band one lies, the nearest takes it."""
+    """The required vertices of each native contour: of those in whose band one lies, the nearest takes it."""
     taken, outside = [[] for _ in contours], []
     for vertex in required.tolist():
         able = [i for i, band in enumerate(bands) if vertex in band]
-        distances = [np.linalg.norm(points[contours[i]] - points[vertex], axis=1).min() for i in able]
+        distances = [np.linalg.norm(_positions(points, contours[i]) - points[vertex], axis=1).min() for i in able]
         if able:
             taken[able[int(np.argmin(distances))]].append(vertex)
         else:
@@ -193,6 +195,27 @@ class _Grid:
 
     def _cell(self, point):
         return tuple((point // self._size).tolist())
+
+
+def _edges(contours):
+    """(n, 2) vertex pairs along native contours; -1 stands for points between vertices."""
+    return np.concatenate([contour_edges(contour.vertices, contour.closed) for contour in contours])
+
+
+def _positions(points, contour):
+    (a, b), t = contour.edge_vertices.T, contour.edge_parameters[:, None]
+    return (1 - t) * points[a] + t * points[b]
+
+
+def _lengths(points, contour):
+    """Of the segments from each point of a contour to the next."""
+    places = _positions(points, contour)
+    steps = np.roll(places, -1, axis=0) - places
+    return np.linalg.norm(steps if contour.closed else steps[:-1], axis=1)
+
+
+def _mean(values):
+    return values.mean() if len(values) else 0.0
 
 
 def _without(edges, others):

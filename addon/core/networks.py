@@ -12,7 +12,7 @@ import numpy as np
 from . import edge_paths, messages, native, parameters
 from .chains import Network
 from .region_check import RegionCheck, check_regions
-from .search import fraction_of, problem_on
+from .search import fraction_of
 from .topology import Topology, regions
 
 
@@ -141,37 +141,14 @@ def _new_path(chain, result):
 
 
 def _search(surface, chains, options, progress):
-    """Results and problems by chain. The native module takes all or none: what it refuses is left out as a barrier."""
-    problems = {}
-    while True:
-        given = [i for i in range(len(chains)) if i not in problems]
-        try:
-            found = _search_all(surface, chains, given, list(problems), options, progress) if given else []
-        except ValueError as error:
-            problems |= _refused(surface, chains, given, error)
-        else:
-            results = dict(zip(given, found))
-            return [results.get(i) for i in range(len(chains))], problems
-
-
-def _search_all(surface, chains, given, left_out, options, progress):
-    barriers = [edge_paths.contour_edges(chains[i].vertices, chains[i].closed) for i in left_out]
-    return native.module().optimize_all(
+    """Results and problems by chain. A chain in error stays where it is, and the others keep clear of it."""
+    found = native.module().optimize_all(
         surface,
-        [chains[i].vertices for i in given],
-        closed=[chains[i].closed for i in given],
+        native.contours(chains),
         options=options,
-        required_vertices=[list(chains[i].required) for i in given],
-        barriers=np.concatenate(barriers) if barriers else (),
+        required_vertices=[list(chain.required) for chain in chains],
         progress=progress,
+        errors="return",
     )
-
-
-def _refused(surface, chains, given, error):
-    """Those of the given chains that are no contours by themselves; or else the one that the message names."""
-    problems = {i: problem_on(surface, chains[i].vertices, chains[i].closed) for i in given}
-    problems = {i: problem for i, problem in problems.items() if problem}
-    if problems:
-        return problems
-    place = native.message_and_contour(error)[1]
-    return dict.fromkeys(given if place is None else [given[place]], messages.problem(error))
+    problems = {i: messages.problem(error) for i, error in enumerate(found) if isinstance(error, ValueError)}
+    return [None if i in problems else result for i, result in enumerate(found)], problems

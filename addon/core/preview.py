@@ -38,19 +38,18 @@ class Preview:
         mrc = native.module()
         for outcome in self.outcomes:
             outcome.result = None
-        vertices = [outcome.vertices for outcome in self.outcomes]
-        closed = [outcome.closed for outcome in self.outcomes]
+        contours = native.contours(self.outcomes)
         options = mrc.Options(**parameters.native_options(**state.settings))
-        self.bands = [
-            mrc.band(self.surface, contour, closed=is_closed, options=options)
-            for contour, is_closed in zip(vertices, closed)
-        ]
-        keywords = native_keywords(mrc, self.surface, vertices, closed, state.settings, self._constraints)
-        pins = [state.pins_of(self.first + place) for place in range(len(vertices))]
+        self.bands = [mrc.band(self.surface, contour, options=options) for contour in contours]
+        keywords = native_keywords(mrc, self.surface, contours, state.settings, self._constraints)
+        pins = [state.pins_of(self.first + place) for place in range(len(contours))]
         required = keywords.setdefault("required_vertices", [[] for _ in pins])
         keywords["required_vertices"] = [np.union1d(*lists).astype(np.int32) for lists in zip(required, pins)]
-        results = mrc.optimize_all(self.surface, vertices, closed=closed, **keywords)
-        for outcome, result in zip(self.outcomes, results):
+        found = mrc.optimize_all(self.surface, contours, errors="return", **keywords)
+        for error in found:
+            if isinstance(error, ValueError):
+                raise error
+        for outcome, result in zip(self.outcomes, found):
             outcome.result = result
 
     def pins_outside(self, state):

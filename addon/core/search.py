@@ -24,29 +24,28 @@ def optimize_on(surface, vertices, closed=True, close=False, progress=None, **se
     return optimize_all_on(surface, [vertices], closed=closed, progress=progress, **settings)[0]
 
 
-def optimize_all_on(surface, contours, closed=True, progress=None, constraints=None, **settings):
+def optimize_all_on(surface, contours, closed=True, progress=None, constraints=None, errors="raise", **settings):
     """Several contours of a native surface together, which never cross; `closed` is one for all or one for each.
 
-    `contours` are sequences of vertices or earlier results. `progress` is called with the fraction done, 0 to 1; where
-    it returns False the search ends, status "cancelled", and an exception that it raises passes through. `constraints`
-    is what `constraint_layers.read` gives. Returns an `mrcontour.Result` for each contour.
+    `contours` are sequences of vertices, `mrcontour.Contour`s or earlier results. `progress` is called with the
+    fraction done, 0 to 1; where it returns False the search ends, status "cancelled", and an exception that it raises
+    passes through. `constraints` is what `constraint_layers.read` gives. Returns an `mrcontour.Result` for each
+    contour; where `errors` is "return", an `mrcontour.InvalidInput` for each contour in error, of which the others
+    keep clear.
     """
     mrc = native.module()
     each_closed = [closed] * len(contours) if isinstance(closed, bool) else closed
-    keywords = native_keywords(mrc, surface, contours, each_closed, settings, constraints)
-    return mrc.optimize_all(surface, contours, closed=closed, progress=progress, **keywords)
+    given = contours
+    if constraints is not None:
+        given = [mrc.Contour(contour, closed=is_closed) for contour, is_closed in zip(contours, each_closed)]
+    keywords = native_keywords(mrc, surface, given, settings, constraints)
+    return mrc.optimize_all(surface, contours, closed=closed, progress=progress, errors=errors, **keywords)
 
 
 def problem_on(surface, vertices, closed=True, barriers=()):
     """Why these vertices are no contour that could be optimized, in words; empty where they are one."""
-    mrc = native.module()
-    try:
-        mrc.measure(surface, vertices, closed=closed)
-        if len(barriers):
-            mrc.optimize(surface, vertices, closed=closed, barriers=barriers, options=mrc.Options(iterations=0))
-    except ValueError as error:
-        return str(error)
-    return ""
+    error = native.module().check_contour(surface, vertices, closed=closed, barriers=barriers)
+    return "" if error is None else messages.problem(error)
 
 
 def fraction_of(progress, i, count):
@@ -88,8 +87,11 @@ def optimize_contours(searches, settings, progress=None):
         try:
             complete(search, fraction_of(own_progress, 0, steps))
             _optimize_together(search, search.sound(), settings, fraction_of(own_progress, steps - 1, steps))
+        except OutsideBand as error:
+            search.outside = error.vertices
+            find_problems(search, search.sound())  # what is wrong with a contour itself says more
+            search.fail(error)
         except ValueError as error:
-            search.outside = error.vertices if isinstance(error, OutsideBand) else ()
             search.fail(error)
 
 
@@ -102,8 +104,7 @@ def complete(search, progress=None):
 
 def find_problems(search, outcomes):
     """Gives each outcome that is no contour the reason why; the others may stay without a result."""
-    vertices, closed = [outcome.vertices for outcome in outcomes], [outcome.closed for outcome in outcomes]
-    barriers = () if search.constraints is None else search.constraints.barriers_beside(vertices, closed)
+    barriers = () if search.constraints is None else search.constraints.barriers_beside(native.contours(outcomes))
     for outcome in outcomes:
         outcome.problem = problem_on(search.surface, outcome.vertices, outcome.closed, barriers)
 
@@ -131,27 +132,32 @@ def _orient_by_density(search):
     for outcome in search.sound():
         if not outcome.closed:
             outcome.problem = messages.open_region()
-        elif not search.from_faces and search.constraints.paints_the_right(
-            native.module(), search.surface, outcome.vertices
-        ):
+        elif not search.from_faces and _paints_the_right(search, outcome):
             outcome.vertices = outcome.vertices[::-1].copy()
 
 
+def _paints_the_right(search, outcome):
+    """Whether the density is greater to the right of a contour; what is no contour has no sides."""
+    if problem_on(search.surface, outcome.vertices, outcome.closed):
+        return False
+    (contour,) = native.contours([outcome])
+    return search.constraints.paints_the_right(native.module(), search.surface, contour)
+
+
 def _optimize_together(search, outcomes, settings, progress):
-    """Optimizes all together. Where one of them cannot be a contour, that one is left out and the others go on."""
+    """Optimizes all together. One that cannot be optimized has a problem instead, and the others keep clear of it."""
     if not outcomes:
         return
-    vertices, closed = [outcome.vertices for outcome in outcomes], [outcome.closed for outcome in outcomes]
-    try:
-        results = optimize_all_on(search.surface, vertices, closed, progress, search.constraints, **settings)
-    except OutsideBand:
-        raise
-    except ValueError:
-        find_problems(search, outcomes)
-        sound = [outcome for outcome in outcomes if not outcome.problem]
-        if len(sound) == len(outcomes):
-            raise
-        _optimize_together(search, sound, settings, progress)
-        return
-    for outcome, result in zip(outcomes, results):
-        outcome.result = result
+    found = optimize_all_on(
+        search.surface,
+        native.contours(outcomes),
+        progress=progress,
+        constraints=search.constraints,
+        errors="return",
+        **settings,
+    )
+    for outcome, result in zip(outcomes, found):
+        if isinstance(result, ValueError):
+            outcome.problem = messages.problem(result)
+        else:
+            outcome.result = result

@@ -250,11 +250,8 @@ def _previews(tasks):
     for task in tasks:
         if task.surface is None:
             continue
-        try:
-            search.complete(task)
-            search.find_problems(task, task.sound())
-        except ValueError as error:
-            task.fail(error)
+        search.complete(task)
+        search.find_problems(task, task.sound())
         if task.sound():
             previews.append((task.obj, Preview(task.arrays, task.surface, task.sound(), count, task.constraints)))
             count += len(task.sound())

@@ -289,7 +289,7 @@ def _fill(numbers, outcome):
     numbers.initial_ratio = outcome.result.initial_ratio
     numbers.ratio = outcome.result.ratio
     numbers.salience = messages.salience(outcome.result)
-    numbers.length = messages.length(outcome.result)
+    numbers.length = outcome.result.length
     numbers.reason = messages.reason(outcome.result)
     numbers.faces = outcome.result.statistics["faces"]
     numbers.milliseconds = messages.milliseconds(outcome.result)

@@ -64,7 +64,7 @@ def read(objects):
         try:
             arrays, surface = arrays_and_surface_of(obj, beside=objects)
         except ValueError as error:
-            problems.append(f"{obj.name}: {error}")
+            problems.append(f"{obj.name}: {messages.problem(error)}")
             continue
         if surface.face_count:
             curvature = native.module().curvature(surface)

@@ -102,12 +102,28 @@ def test_native_errors_are_reworded_in_terms_of_the_panel():
     assert issubclass(mrc.TooLarge, ValueError)
 
 
-def test_the_index_of_a_contour_is_left_out():
-    mesh = meshes.torus(14, 30)
+def test_a_problem_is_the_sentence_without_the_index_of_the_contour():
+    contours = [[30 * row for row in range(14)], [3, 4, 4]]
     with pytest.raises(ValueError, match=r"^contour 1: ") as caught:
-        mrc.optimize_all(surface_of(mesh), [[30 * row for row in range(14)], [3, 4, 4]])
-    assert messages.problem(caught.value) == str(caught.value).removeprefix("contour 1: ")
+        mrc.optimize_all(surface_of(meshes.torus(14, 30)), contours)
+    error = mrc.optimize_all(surface_of(meshes.torus(14, 30)), contours, errors="return")[1]
+    assert messages.problem(error) == str(caught.value).removeprefix("contour 1: ")
     assert messages.problem(ValueError("contour lines: none")) == "contour lines: none"
+
+
+def test_texts_go_by_codes_and_not_by_classes():
+    assert messages._PROBLEMS.keys() == {"too_large", "infeasible"}
+    for code, text in messages._PROBLEMS.items():
+        assert messages.problem(SimpleNamespace(code=code)) == text
+    assert messages.unsearchable(SimpleNamespace(code="infeasible"), 0).startswith("No contour in the band")
+
+
+def test_nothing_in_the_add_on_matches_patterns_in_messages():
+    addon = Path(messages.__file__).resolve().parents[1]
+    sources = {path: path.read_text(encoding="utf-8") for path in addon.glob("*/*.py")}
+    assert len(sources) > 30
+    assert not [path for path, text in sources.items() if re.search(r"^\s*(import|from) re\b", text, re.MULTILINE)]
+    assert not [path for path, text in sources.items() if re.search(r" in str\(error\)|str\(error\)\.", text)]
 
 
 def test_problems_name_their_elements():
@@ -183,12 +199,6 @@ def test_salience_is_named_from_nothing_to_a_clear_boundary(value):
 
 def test_without_a_search_there_is_no_salience():
     assert messages.salience(SimpleNamespace(salience=0.0, statistics={"passes": 0})) == ""
-
-
-@pytest.mark.parametrize(("closed", "expected"), [(True, 14.0), (False, 11.0)])
-def test_length(closed, expected):
-    square = np.array([(0, 0, 0), (4, 0, 0), (4, 3, 0), (0, 3, 0)], dtype=float)
-    assert messages.length(SimpleNamespace(positions=square, closed=closed)) == expected
 
 
 def test_the_summary_of_nothing_says_what_to_select():

@@ -75,7 +75,7 @@ def test_without_paint_nearby_there_is_no_attractor():
 
 def test_required_vertices_go_to_the_nearest_contour_whose_band_contains_them():
     points = np.array([(x, 0.0, 0.0) for x in range(10)])
-    contours = [np.array([0, 1]), np.array([6, 7])]
+    contours = [mrc.Contour([0, 1], closed=False), mrc.Contour([6, 7], closed=False)]
     bands = [np.arange(0, 6), np.arange(4, 10)]
     first, second = arrays.assign(np.array([2, 4, 5, 9]), points, contours, bands)
     assert (first.tolist(), second.tolist()) == ([2], [4, 5, 9])
@@ -92,22 +92,20 @@ def test_required_vertices_go_to_the_nearest_contour_whose_band_contains_them():
 def test_vertices_outside_the_band_are_those_that_the_native_module_refuses(width):
     """The message comes before the search, and says of all vertices what the module says of the first."""
     mesh = tube()
-    surface, contour = surface_of(mesh), ring(6)
+    surface, contour = surface_of(mesh), mrc.Contour(ring(6))
     options = parameters.native_options(width=width, reach=0.0)
     for row in range(1, ROWS - 1):
         asked = constraints(mesh, required=ring(row)[3:4])
         try:
-            asked.keywords(mrc, surface, [contour], [True], options)
+            asked.keywords(mrc, surface, [contour], options)
             outside = False
         except arrays.OutsideBand:
             outside = True
-        try:
-            mrc.optimize(surface, contour, options=mrc.Options(**options), required_vertices=asked.required)
-            refused = False
-        except mrc.Infeasible:
-            refused = False
-        except ValueError as error:
-            refused = "outside the band" in str(error)
+        (found,) = mrc.optimize_all(
+            surface, [contour], options=mrc.Options(**options), required_vertices=[asked.required], errors="return"
+        )
+        refused = getattr(found, "code", "") == "outside_band"
+        assert not refused or found.elements == (("vertex", asked.required[0]),)
         assert outside == refused == (abs(row - 6) > width)
 
 
@@ -116,7 +114,7 @@ def test_attractors_reach_as_far_as_the_iterations(iterations):
     mesh = tube()
     asked = constraints(mesh, pulls=np.ones(len(mesh.positions)), strength=2.0, radius=0.1)
     options = parameters.native_options(width=1, reach=0.0, iterations=iterations)
-    rows = asked.keywords(mrc, surface_of(mesh), [ring(6)], [True], options)["attractors"]
+    rows = asked.keywords(mrc, surface_of(mesh), [mrc.Contour(ring(6))], options)["attractors"]
     reached = np.concatenate([ring(row) for row in range(6 - iterations, 7 + iterations)])
     assert sorted(rows[:, 0].astype(int)) == reached.tolist()
 
@@ -127,11 +125,11 @@ def test_marks_along_the_given_contour_are_ignored():
     marks = np.concatenate([along[:, ::-1], others])
     asked = constraints(mesh, barriers=marks, attracting=marks, strength=1.0, radius=0.1)
     options = parameters.native_options(reach=0.0)
-    found = asked.keywords(mrc, surface_of(mesh), [ring(6)], [True], options)
+    found = asked.keywords(mrc, surface_of(mesh), [mrc.Contour(ring(6))], options)
     assert np.array_equal(found["barriers"], others)
     assert sorted(found["attractors"][:, 0].astype(int)) == ring(8).tolist()
     alone = constraints(mesh, attracting=along, strength=1.0).keywords(
-        mrc, surface_of(mesh), [ring(6)], [True], options
+        mrc, surface_of(mesh), [mrc.Contour(ring(6))], options
     )
     assert "attractors" not in alone
     assert alone["options"].min_salience == options["min_salience"]
@@ -142,13 +140,39 @@ def test_the_painted_side_is_found_in_either_direction():
     density = np.array([float(min(face) >= 7 * COLUMNS) for face in mesh.faces])
     asked = constraints(mesh, density=density)
     surface, loop = surface_of(mesh), ring(6)
-    sides = [asked.paints_the_right(mrc, surface, contour) for contour in (loop, loop[::-1].copy())]
+    loop, back = mrc.Contour(loop), mrc.Contour(loop[::-1])
+    sides = [asked.paints_the_right(mrc, surface, contour) for contour in (loop, back)]
     assert sorted(sides) == [False, True]
     opposite = constraints(mesh, density=1 - density)
     assert [
         opposite.paints_the_right(mrc, surface, loop),
-        opposite.paints_the_right(mrc, surface, loop[::-1].copy()),
+        opposite.paints_the_right(mrc, surface, back),
     ] == [not side for side in sides]
+
+
+def test_a_contour_in_error_changes_no_constraint_of_the_others():
+    mesh = tube()
+    surface, sound, bad = surface_of(mesh), mrc.Contour(ring(6)), mrc.Contour([*ring(9), ring(10)[11]])
+    asked = constraints(mesh, required=ring(7)[3:4], pulls=np.ones(len(mesh.positions)), strength=2.0)
+    options = parameters.native_options(width=2, reach=0.0)
+    both, alone = (asked.keywords(mrc, surface, contours, options) for contours in ([sound, bad], [sound]))
+    assert [list(vertices) for vertices in both["required_vertices"]] == [[ring(7)[3]], []]
+    assert np.array_equal(both["attractors"], alone["attractors"])
+    assert len(constraints(mesh, pulls=asked.pulls).keywords(mrc, surface, [bad], options)["attractors"]) == 0
+
+
+def test_required_vertices_go_to_contours_across_faces_too():
+    mesh = tube()
+    surface = surface_of(mesh)
+    corners = [set(triangle) for triangle in np.asarray(mesh.arguments()[3]).tolist()]
+    edges = []  # between two rings, and the diagonals of the faces there
+    for a, b, c, d in zip(ring(8), np.roll(ring(8), -1), np.roll(ring(9), -1), ring(9)):
+        edges += [(a, d), (a, c) if {a, b, c} in corners else (b, d)]
+    middle = mrc.Contour(edge_vertices=np.array(edges), edge_parameters=np.full(len(edges), 0.5))
+    asked = constraints(mesh, required=ring(8)[3:4], pulls=np.ones(len(mesh.positions)), strength=2.0)
+    options = parameters.native_options(width=3, reach=0.0, refinement=1)
+    found = asked.keywords(mrc, surface, [mrc.Contour(ring(5)), middle], options)
+    assert [list(vertices) for vertices in found["required_vertices"]] == [[], [ring(8)[3]]]
 
 
 def test_means_over_faces_of_any_size():

@@ -4,8 +4,8 @@
 import importlib
 import sys
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
 
 import meshes
 import numpy as np
@@ -418,26 +418,54 @@ def test_only_chosen_chains_move():
     assert moved == [[0, 1], [0], [1]]
 
 
-def test_chains_that_cannot_be_searched_are_reported_and_act_as_barriers(monkeypatch):
+class CountingModule:
+    """The native module, which notes the searches asked for, and can add contours' errors to what they return."""
+
+    def __init__(self, module, refuse=lambda contour: False):
+        self.module, self.refuse, self.calls = module, refuse, []
+
+    def __getattr__(self, name):
+        return getattr(self.module, name)
+
+    def optimize_all(self, surface, contours, **more):
+        self.calls.append((contours, more))
+        found = self.module.optimize_all(surface, contours, **more)
+        refused = ValueError("it is not to my liking")
+        return [refused if self.refuse(contour) else result for contour, result in zip(contours, found)]
+
+
+def test_chains_that_cannot_be_searched_are_reported_and_stay(monkeypatch):
     mesh, topology, marked = three_strips()
-    module, barriers = networks.native.module(), []
-
-    def refusing(surface, contours, **more):
-        for i, contour in enumerate(contours):
-            if 12 in contour % 16:
-                raise ValueError(f"contour {i}: it is not to my liking")
-        barriers.append(more["barriers"])
-        return module.optimize_all(surface, contours, **more)
-
-    fake = SimpleNamespace(optimize_all=refusing, measure=module.measure, Options=module.Options)
-    monkeypatch.setattr(networks.native, "module", lambda: fake)
+    counting = CountingModule(networks.native.module(), lambda contour: 12 in contour.vertices % 16)
+    monkeypatch.setattr(networks.native, "module", lambda: counting)
     plan = optimize(mesh, topology, marked, width=4)
     assert list(plan.problems.values()) == ["it is not to my liking"]
     assert [bool(12 in chain.vertices % 16) for chain in plan.chains] == [
         not taken for taken in plan.region_check.taken
     ]
-    (barriers,) = barriers
-    assert sorted(as_pairs(barriers)) == [(12 + 16 * y, 28 + 16 * y) for y in range(7)]
+    assert [more["errors"] for _, more in counting.calls] == ["return"]
+
+
+def test_chains_beside_a_refused_one_move_as_if_it_were_a_barrier(monkeypatch):
+    """One native call for all; the same as a search of the others with the edges of the refused one as barriers."""
+    mesh, topology, marked = three_strips()
+    network = chains_module.make_network(topology, marked)
+    straight, other = sorted(network.chains, key=lambda chain: 12 in chain.vertices % 16)
+    bad = replace(other, vertices=np.append(other.vertices, other.vertices[:1]))  # it passes its first vertex twice
+    surface = surface_of(mesh)
+    counting = CountingModule(networks.native.module())
+    monkeypatch.setattr(networks.native, "module", lambda: counting)
+    options = counting.Options(**networks.parameters.network_options(width=8, reach=0.0, min_salience=0.0))
+    (result, nothing), problems = networks._search(surface, [straight, bad], options, None)
+    assert (nothing, list(problems)) == (None, [1])
+    assert problems[1] == networks.messages.problem(counting.check_contour(surface, bad.vertices, closed=False))
+    assert len(counting.calls) == 1
+    barriers = edge_paths.contour_edges(other.vertices, closed=False)
+    (alone,) = counting.module.optimize_all(
+        surface, [straight.vertices], closed=False, options=options, barriers=barriers
+    )
+    assert result.vertices.tolist() == alone.vertices.tolist() != straight.vertices.tolist()
+    assert (result.ratio, result.objective) == (alone.ratio, alone.objective)
 
 
 def test_contours_through_nonmanifold_vertices_are_reported():
