@@ -48,14 +48,14 @@ __all__ = [
 ]
 
 
-def optimize_contour(obj, vertices, closed=True, close=False, **settings):
+def optimize_contour(obj, vertices, closed=True, around_limb=False, **settings):
     """Return the minimum ratio contour near a given one, an `mrcontour.Result`. The mesh is not changed.
 
     vertices: (N,) int, the given contour in order along edges of the mesh.
     closed: whether it is a loop (default) or an open chain.
-    close: whether to close the chain of vertices around its limb first; a quarter of a loop is enough. `closed` is then
-        ignored, and the setting `anchor` (default 0.5; 0: not at all) says how strongly the result is held near the
-        loop that this gives.
+    around_limb: whether the vertices are an open chain on a limb, which is first completed to a loop around it; a
+        quarter of a loop is enough. `closed` does not matter then, and the setting `anchor` (default 0.5; 0: not at
+        all) says how strongly the result is held near the loop that this gives. Also accepted as `close`.
     settings: those of `core.parameters.SETTINGS` and `core.parameters.CONSTRAINTS`.
 
     Raises TypeError for unknown settings, and ValueError if the vertices are not a contour, a layer is missing, or no
@@ -64,9 +64,8 @@ def optimize_contour(obj, vertices, closed=True, close=False, **settings):
     synchronize(obj)
     settings, layer_settings = parameters.split(settings)
     constraints = constraint_layers.read(obj, **layer_settings)
-    return optimize_on(
-        surface_cache.surface_of(obj), vertices, closed=closed, close=close, constraints=constraints, **settings
-    )
+    surface = surface_cache.surface_of(obj)
+    return optimize_on(surface, vertices, closed, around_limb, constraints=constraints, **settings)
 
 
 def optimize_seams(obj, selected_only=False, apply=False, merge=0.0, **settings):

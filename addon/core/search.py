@@ -10,12 +10,12 @@ from . import messages, native
 from .native_constraints import OutsideBand, native_keywords
 
 
-def optimize_on(surface, vertices, closed=True, close=False, progress=None, **settings):
+def optimize_on(surface, vertices, closed=True, around_limb=False, progress=None, **settings):
     """The minimum ratio contour near a given one on a native surface, of `surface_of`.
 
     Like api.optimize_contour; `progress` and `constraints` as in optimize_all_on.
     """
-    if close:
+    if settings.pop("close", False) or around_limb:  # its earlier name
         closing, progress = fraction_of(progress, 0, 2), fraction_of(progress, 1, 2)
         loop = native.module().close_contour(surface, vertices, progress=closing)
         if loop is None:  # cancelled: so is the search

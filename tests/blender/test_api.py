@@ -29,13 +29,22 @@ def test_edit_mode_sees_what_was_edited_and_changes_nothing():
     assert mesh_state(obj) == before
 
 
-def test_a_quarter_of_a_loop_is_closed_first():
-    obj = grooved_cylinder()
-    result = api.optimize_contour(obj, rough_loop(GROOVE - 3)[5:16], close=True)
+@pytest.mark.parametrize("name", ["around_limb", "close"])
+def test_a_quarter_of_a_loop_is_closed_first(name):
+    """`close` is the earlier name of `around_limb`."""
+    obj, asked = grooved_cylinder(), {name: True}
+    result = api.optimize_contour(obj, rough_loop(GROOVE - 3)[5:16], **asked)
     assert result.status == "improved"
     assert edge_set(np.asarray(result.vertices).tolist()) == edge_set(ring(GROOVE))
     with pytest.raises(ValueError, match="at least 2"):
-        api.optimize_contour(obj, [12], close=True)
+        api.optimize_contour(obj, [12], **asked)
+
+
+def test_the_old_name_asks_for_nothing_where_it_is_false():
+    obj = grooved_cylinder()
+    loop = rough_loop(GROOVE - 3)
+    assert api.optimize_contour(obj, loop, closed=True, close=False).closed
+    assert not api.optimize_contour(obj, loop[5:16], closed=False, close=False).closed
 
 
 def test_a_surface_is_current_until_its_mesh_changes():

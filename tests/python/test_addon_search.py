@@ -169,6 +169,17 @@ def test_results_and_contours_are_taken_beside_vertices():
     assert again[0].contour == again[1].contour
 
 
+@pytest.mark.parametrize("asked", [{"around_limb": True}, {"close": True}, {"closed": False, "close": True}])
+def test_a_part_of_a_loop_is_closed_around_the_limb(asked):
+    """`close` is the earlier name of `around_limb`."""
+    surface = surface_of(tube())
+    loop = mrc.close_contour(surface, ring(10)[:4])
+    expected = search.optimize_on(surface, loop, **SETTINGS)
+    assert search.optimize_on(surface, ring(10)[:4], **asked, **SETTINGS).contour == expected.contour
+    open_chain = search.optimize_on(surface, ring(10)[:4], closed=False, close=False, **SETTINGS)
+    assert not open_chain.closed
+
+
 def test_the_number_of_closed_flags_is_checked_with_and_without_constraints():
     mesh = tube()
     for layers in (None, constraints(mesh, pulls=np.ones(len(mesh.positions)), strength=1.0)):
