@@ -37,9 +37,9 @@ enum class ErrorCode {
     no_neighbour,         ///< no simple contour along mesh edges lies beside it
     // constraints
     invalid_attractor,
-    open_region,        ///< a region density with an open contour
-    other_surface,      ///< scales of another surface
-    outside_band,       ///< a required element that no contour reaches
+    open_region,            ///< a region density with an open contour
+    other_surface,          ///< scales of another surface
+    outside_band,           ///< a required element that no contour reaches
     touches_other_contour,  ///< a required edge that another contour or its band touches
     // close_contour
     not_open,
