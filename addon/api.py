@@ -27,7 +27,7 @@ from .core import networks, parameters
 from .core.native import module as native_module
 from .core.parameters import native_options
 from .core.search import optimize_all_on, optimize_on, problem_on
-from .mesh import constraint_layers, network_cutting, seams, segmentation, surface_cache
+from .mesh import constraint_layers, network_cutting, seam_network, segmentation, surface_cache
 from .mesh.arrays import synchronize
 from .mesh.surface_cache import are_current, arrays_and_surface_of, forget
 
@@ -84,9 +84,9 @@ def optimize_seams(obj, selected_only=False, apply=False, merge=0.0, **settings)
     Raises TypeError for unknown settings, and ValueError if the mesh is not a valid surface.
     """
     synchronize(obj)
-    plan = _plan(obj, seams.read_network(obj, selected_only), merge, settings)
+    plan = _plan(obj, seam_network.read_network(obj, selected_only), merge, settings)
     if apply and plan.changed:
-        seams.write(obj, network_cutting.cut(obj, plan, merge))
+        seam_network.write(obj, network_cutting.cut(obj, plan, merge))
         network_cutting.restore_normals(bpy.context, obj)
     return list(plan.taken_results().values())
 

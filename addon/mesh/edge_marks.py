@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Seam and sharp marks and the selection of meshes in Edit Mode, and Live Unwrap for new seams."""
+"""Seam and sharp marks, which move with a contour or stay, the selection, and Live Unwrap for new seams."""
 
 from contextlib import contextmanager
 
@@ -22,6 +22,18 @@ def move_mark(mesh, output, old_edges, new_edges, selection=False):
     if selection:
         flush_selection(bm)
     bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+
+
+def clear_given(edges, output, keep_old):
+    """Clear the mark along a given contour, so that it moves with the contour, unless it is to be kept."""
+    if output in MARKS and not keep_old:
+        set_mark(edges, output, False)
+
+
+def mark_found(edges, output):
+    """Set the output's mark along a contour that was found; other outputs leave marks alone."""
+    if output in MARKS:
+        set_mark(edges, output, True)
 
 
 def unwrap_live(context, meshes):

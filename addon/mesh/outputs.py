@@ -136,8 +136,7 @@ class _Cut:
         self.seeds = []  # one face of each part to be separated
 
     def write(self):
-        if self.options.output in edge_marks.MARKS:
-            edge_marks.set_mark(self.edges, self.options.output, True)
+        edge_marks.mark_found(self.edges, self.options.output)
         moved = self._move_selected_faces() if self.from_faces else set()
         self.seeds = [
             separation.adjacent_face(self.bm, *contour, on_left)
@@ -161,8 +160,7 @@ class _Cut:
     def _clear_old(self, old_edges):
         """Clear the marks and selection of the given edges, before the cut may split these edges."""
         edges = find_edges(self.bm, old_edges)
-        if self.options.output in edge_marks.MARKS and not self.options.keep_old:
-            edge_marks.set_mark(edges, self.options.output, False)
+        edge_marks.clear_given(edges, self.options.output, self.options.keep_old)
         if not self.from_faces:
             edge_marks.select_each([edges], False)
 

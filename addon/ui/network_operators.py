@@ -8,7 +8,7 @@ from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ..core import messages, networks
 from ..core.outcomes import Outcome
-from ..mesh import edge_marks, network_cutting, network_tasks, seams, segmentation
+from ..mesh import edge_marks, network_cutting, network_tasks, seam_network, segmentation
 from ..mesh.arrays import synchronize
 from ..mesh.network_tasks import NetworkTask
 from ..mesh.surface_cache import arrays_and_surface_of
@@ -97,18 +97,18 @@ Seams that meet stay together, and every island stays one island"""
     )
 
     def _read_network(self, task):
-        task.network = seams.read_network(task.obj, self.selected_only)
-        task.asymmetric = self.selected_only and seams.lacks_images(task.obj)
-        task.details = self.selected_only and seams.only_seams_selected(task.obj)
+        task.network = seam_network.read_network(task.obj, self.selected_only)
+        task.asymmetric = self.selected_only and seam_network.lacks_images(task.obj)
+        task.details = self.selected_only and seam_network.only_seams_selected(task.obj)
 
     def _nothing(self):
         return messages.no_seams(self.selected_only)
 
     def _chain_outcomes(self, task):
-        return seams.outcomes(task.obj.name, task.plan)
+        return seam_network.outcomes(task.obj.name, task.plan)
 
     def _write(self, task, plan):
-        seams.write(task.obj, plan, selection=task.details)
+        seam_network.write(task.obj, plan, selection=task.details)
 
     def _written(self, context):
         edge_marks.unwrap_live(context, [obj.data for obj in context.objects_in_mode_unique_data])
