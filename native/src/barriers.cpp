@@ -2,6 +2,7 @@
 #include "barriers.h"
 
 #include "element_names.h"
+#include "segments.h"
 #include "surface_point.h"
 
 #include <algorithm>
@@ -24,16 +25,13 @@ std::vector<int> fan_of(const Surface& surface, int vertex) {
     return fan;
 }
 
-/// Where in a vertex's fan the way to the next point of a contour lies: half-edges by their place, triangles between them.
+/// Where in a vertex's fan the next point of a contour lies: on half-edge i at i, in the triangle after it at i + 0.5.
 double place_in_fan(const Surface& surface, const std::vector<int>& fan, const SurfacePoint& next) {
     for (std::size_t i = 0; i < fan.size(); ++i) {
-        const int here = surface.from(fan[i]), there = surface.to(fan[i]);
-        const auto on_edge = [&](int v) { return v == here || v == there; };
-        if (on_edge(next.a) && on_edge(next.b)) return static_cast<double>(i);
+        if (directed_edge(surface, fan[i]).holds(next)) return static_cast<double>(i);
     }
     for (std::size_t i = 0; i < fan.size(); ++i) {
-        const auto& corners = surface.triangle(fan[i] / 3);
-        if (std::ranges::count(corners, next.a) + std::ranges::count(corners, next.b) == 2) return static_cast<double>(i) + 0.5;
+        if (on_triangle(surface, fan[i] / 3, next)) return static_cast<double>(i) + 0.5;
     }
     return -1.0;
 }
@@ -78,19 +76,11 @@ class BarrierCheck {
     }
     bool is_barrier(int a, int b) const { return barriers_.contains({std::min(a, b), std::max(a, b)}); }
 
-    /// The neighbor of point i, `step` points on; null beyond the ends of an open curve.
-    const SurfacePoint* neighbor(int i, int step) const {
-        const int count = static_cast<int>(contour_.points.size()), j = i + step;
-        if (!contour_.closed && (j < 0 || j >= count)) return nullptr;
-        return &contour_.points[(j + count) % count];
-    }
-
     /// True where the segment behind point i lies on a barrier.
     bool along(int i) const {
-        const SurfacePoint* next = neighbor(i, 1);
-        if (!next) return false;
-        const SharedEdge edge(contour_.points[i], *next);
-        return edge.a >= 0 && is_barrier(edge.a, edge.b);
+        const SurfacePoint* next = neighbor(contour_, i, 1);
+        const auto edge = next ? shared_edge(contour_.points[i], *next) : std::nullopt;
+        return edge && is_barrier(edge->a, edge->b);
     }
 
     /// Where a closed contour's runs do not go on from its last point to its first.
@@ -103,7 +93,7 @@ class BarrierCheck {
     }
 
     Sides sides_at(int i) const {
-        const SurfacePoint *last = neighbor(i, -1), *next = neighbor(i, 1);
+        const SurfacePoint *last = neighbor(contour_, i, -1), *next = neighbor(contour_, i, 1);
         if (!last || !next) return {};
         const SurfacePoint& here = contour_.points[i];
         if (here.is_vertex()) return sides_at_vertex(here.a, *last, *next);
@@ -125,8 +115,9 @@ class BarrierCheck {
 
     /// At a point inside a barrier its two halves go off, but for those that the contour runs along.
     Sides sides_inside_edge(const SurfacePoint& here, const SurfacePoint& last, const SurfacePoint& next) const {
-        const auto ahead = [&](const SurfacePoint& p) { return on_edge(here, p) && share(here, p) > here.t; };
-        const auto behind = [&](const SurfacePoint& p) { return on_edge(here, p) && share(here, p) < here.t; };
+        const DirectedEdge edge{here.a, here.b};
+        const auto ahead = [&](const SurfacePoint& p) { return edge.holds(p) && edge.parameter(p) > here.t; };
+        const auto behind = [&](const SurfacePoint& p) { return edge.holds(p) && edge.parameter(p) < here.t; };
         Sides sides;
         for (const bool half : {true, false}) {  // the one towards b, and that towards a
             if (half ? ahead(last) || ahead(next) : behind(last) || behind(next)) continue;
@@ -135,29 +126,14 @@ class BarrierCheck {
         return sides;
     }
 
-    static bool on_edge(const SurfacePoint& edge, const SurfacePoint& p) {
-        return (p.a == edge.a || p.a == edge.b) && (p.b == edge.a || p.b == edge.b);
-    }
-    static double share(const SurfacePoint& edge, const SurfacePoint& p) {
-        if (p.is_vertex()) return p.a == edge.a ? 0.0 : 1.0;
-        return p.a == edge.a ? p.t : 1.0 - p.t;
-    }
-
-    /// Where the halves of the edge and the ways to other points lie round a point inside it, turning left from the half towards b:
-    /// 0 and 2 for the halves, 1 and 3 for the triangles on the left and on the right of the edge from a to b.
+    /// The direction of another point, seen from a point inside edge ab, counted in quarter turns to the left: 0 along the edge
+    /// towards b, 1 in the triangle on its left, 2 along it towards a, 3 in the triangle on its right.
     int quarter(const SurfacePoint& here, const SurfacePoint& p) const {
-        if (on_edge(here, p)) return share(here, p) > here.t ? 0 : 2;
-        for (const int h : surface_.outgoing(here.a)) {
-            if (surface_.to(h) == here.b) return in_triangle(h / 3, p) ? 1 : 3;
-        }
-        for (const int h : surface_.outgoing(here.b)) {
-            if (surface_.to(h) == here.a) return in_triangle(h / 3, p) ? 3 : 1;
-        }
-        return 1;
-    }
-    bool in_triangle(int triangle, const SurfacePoint& p) const {
-        const auto& corners = surface_.triangle(triangle);
-        return std::ranges::find(corners, p.a) != corners.end() && std::ranges::find(corners, p.b) != corners.end();
+        const DirectedEdge edge{here.a, here.b};
+        if (edge.holds(p)) return edge.parameter(p) > here.t ? 0 : 2;
+        const int h = surface_.find_edge(edge.a, edge.b, EdgeKind::any);
+        const bool triangle_on_left = surface_.from(h) == edge.a;
+        return on_triangle(surface_, h / 3, p) == triangle_on_left ? 1 : 3;
     }
 
     bool on_left(const SurfacePoint& here, const SurfacePoint& last, const SurfacePoint& next, bool towards_b) const {

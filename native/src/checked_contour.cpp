@@ -2,6 +2,7 @@
 #include "element_names.h"
 #include "obstacles.h"
 #include "patch.h"
+#include "segments.h"
 #include "surface_point.h"
 
 #include <algorithm>
@@ -19,14 +20,6 @@ namespace {
 std::string point_name(const SurfacePoint& p) {
     return p.is_vertex() ? "vertex " + std::to_string(p.a)
                          : "the point at " + std::to_string(p.t) + " of edge " + edge_name(p.a, p.b);
-}
-
-/// A half-edge with these ends, real or diagonal, or -1.
-int any_halfedge(const Surface& surface, int a, int b) {
-    for (const int h : surface.outgoing(a)) {
-        if (surface.to(h) == b) return h;
-    }
-    return -1;
 }
 
 InvalidInput no_edge(int a, int b) {
@@ -50,7 +43,7 @@ void check_point(const Surface& surface, const SurfacePoint& p) {
                                ": it must be from 0 to 1",
                            {Element::edge(p.a, p.b)});
     }
-    if (!p.is_vertex() && any_halfedge(surface, p.a, p.b) < 0 && any_halfedge(surface, p.b, p.a) < 0) throw no_edge(p.a, p.b);
+    if (!p.is_vertex() && surface.find_edge(p.a, p.b, EdgeKind::any) < 0) throw no_edge(p.a, p.b);
 }
 
 /// The order of points on edges, whichever way these are written.
@@ -80,32 +73,30 @@ void check_distinct(const Contour& contour) {
     }
 }
 
-/// Where on a triangle's border a point lies: side and share of it, as one number from 0 to 3.
+/// Where on a triangle's boundary a point lies, from 0 to 3: the number of the side, plus how far along it.
 double border_place(const Surface& surface, int triangle, const SurfacePoint& p) {
     for (int corner = 0; corner < 3; ++corner) {
-        const int from = surface.triangle(triangle)[corner], to = surface.triangle(triangle)[(corner + 1) % 3];
-        if (p.is_vertex() && p.a == from) return corner;
-        if (!p.is_vertex() && p.a == from && p.b == to) return corner + p.t;
-        if (!p.is_vertex() && p.b == from && p.a == to) return corner + 1.0 - p.t;
+        const DirectedEdge side = directed_edge(surface, 3 * triangle + corner);
+        if (side.holds(p)) return corner + side.parameter(p);
     }
     return -1.0;
 }
 
 struct Crossing {
     int triangle;
-    double low, high;  // places on the triangle's border
-    std::size_t segment;
+    double low, high;           // places on the triangle's boundary
+    const SurfacePoint* start;  // of the segment
 };
 
-/// Segments inside one triangle cross where their ends alternate on its border.
-void check_crossings(const Contour& contour, std::vector<Crossing>& crossings) {
+/// Segments inside one triangle cross where their ends alternate on its boundary.
+void check_crossings(std::vector<Crossing>& crossings) {
     std::ranges::sort(crossings, {}, &Crossing::triangle);
     for (auto first = crossings.begin(); first != crossings.end();) {
         const auto end = std::find_if(first, crossings.end(), [&](const Crossing& c) { return c.triangle != first->triangle; });
         for (auto i = first; i != end; ++i) {
             for (auto j = first; j != end; ++j) {
                 if (i->low < j->low && j->low < i->high && i->high < j->high) {
-                    const SurfacePoint &p = contour.points[i->segment], &q = contour.points[j->segment];
+                    const SurfacePoint &p = *i->start, &q = *j->start;
                     throw InvalidInput(ErrorCode::not_simple,
                                        "the contour crosses itself: its segments after " + point_name(p) + " and after " +
                                            point_name(q) + " meet; give a contour that does not touch itself",
@@ -117,15 +108,10 @@ void check_crossings(const Contour& contour, std::vector<Crossing>& crossings) {
     }
 }
 
-bool on_edge(const Surface& surface, int halfedge, const SurfacePoint& p) {
-    const int a = surface.from(halfedge), b = surface.to(halfedge);
-    return (p.a == a || p.a == b) && (p.b == a || p.b == b);
-}
-
-void add_crossing(const Surface& surface, int triangle, const SurfacePoint& p, const SurfacePoint& q, std::size_t index,
+void add_crossing(const Surface& surface, int triangle, const SurfacePoint& p, const SurfacePoint& q,
                   std::vector<Crossing>& crossings) {
     const double from = border_place(surface, triangle, p), to = border_place(surface, triangle, q);
-    crossings.push_back({triangle, std::min(from, to), std::max(from, to), index});
+    crossings.push_back({triangle, std::min(from, to), std::max(from, to), &p});
 }
 
 InvalidInput obstructed(const std::string& what, std::vector<Element> elements, const Obstacle& obstacle) {
@@ -139,8 +125,7 @@ void check_edge(const Surface& surface, int a, int b) {
         throw obstructed("the contour's edge " + edge_name(a, b), {Element::edge(a, b)}, *in_the_way);
 }
 
-void check_segment(const Surface& surface, const SurfacePoint& p, const SurfacePoint& q, std::size_t index,
-                   std::vector<Crossing>& crossings) {
+void check_segment(const Surface& surface, const SurfacePoint& p, const SurfacePoint& q, std::vector<Crossing>& crossings) {
     if (p.is_vertex() && q.is_vertex()) check_edge(surface, p.a, q.a);
     const int triangle = triangle_of_segment(surface, p, q);
     if (triangle < 0) {
@@ -149,18 +134,18 @@ void check_segment(const Surface& surface, const SurfacePoint& p, const SurfaceP
                                ": consecutive points must lie on one triangle",
                            {element_of(p), element_of(q)});
     }
-    const SharedEdge edge(p, q);
-    const bool along = edge.a >= 0 && surface.real_edge(edge.a, edge.b);
-    if (const auto in_the_way = along ? obstacle(surface, edge.a, edge.b) : obstacle(surface, 3 * triangle)) {
+    const auto edge = shared_edge(p, q);
+    const bool along = edge && surface.real_edge(edge->a, edge->b);
+    if (const auto in_the_way = along ? obstacle(surface, edge->a, edge->b) : obstacle(surface, 3 * triangle)) {
         throw obstructed("the contour between " + point_name(p) + " and " + point_name(q), {element_of(p), element_of(q)},
                          *in_the_way);
     }
-    // A segment along an edge lies on the border of both its triangles.
-    const int start = 3 * triangle;
-    add_crossing(surface, triangle, p, q, index, crossings);
-    for (int h = start; h < start + 3; ++h) {
+    // A segment along an edge lies on the boundary of both its triangles.
+    add_crossing(surface, triangle, p, q, crossings);
+    for (int h = 3 * triangle; h < 3 * triangle + 3; ++h) {
+        const DirectedEdge side = directed_edge(surface, h);
         const int twin = surface.twin(h);
-        if (twin >= 0 && on_edge(surface, h, p) && on_edge(surface, h, q)) add_crossing(surface, twin / 3, p, q, index, crossings);
+        if (twin >= 0 && side.holds(p) && side.holds(q)) add_crossing(surface, twin / 3, p, q, crossings);
     }
 }
 
@@ -171,11 +156,8 @@ Contour checked_contour(const Surface& surface, const Contour& contour) {
     Contour checked = normalized(contour);
     check_distinct(checked);
     std::vector<Crossing> crossings;
-    const std::size_t count = checked.points.size();
-    for (std::size_t i = 0; i + (checked.closed ? 0 : 1) < count; ++i) {
-        check_segment(surface, checked.points[i], checked.points[(i + 1) % count], i, crossings);
-    }
-    check_crossings(checked, crossings);
+    for (const auto& [p, q] : segments(checked)) check_segment(surface, p, q, crossings);
+    check_crossings(crossings);
     return checked;
 }
 

@@ -3,6 +3,7 @@
 
 #include "distances.h"
 #include "energy.h"
+#include "segments.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,10 +35,7 @@ double quantile(std::vector<double>& values, double q) {
 
 double contour_length(const Surface& surface, const Contour& contour) {
     double length = 0.0;
-    const std::size_t count = contour.points.size();
-    for (std::size_t i = 0; i + (contour.closed ? 0 : 1) < count; ++i) {
-        length += (surface.position(contour.points[(i + 1) % count]) - surface.position(contour.points[i])).norm();
-    }
+    for (const auto& [p, q] : segments(contour)) length += (surface.position(q) - surface.position(p)).norm();
     return length;
 }
 

@@ -2,6 +2,7 @@
 #include "energy.h"
 
 #include "attraction.h"
+#include "segments.h"
 #include "surface_point.h"
 
 #include <Eigen/Geometry>
@@ -120,10 +121,9 @@ namespace {
 
 /// The crease cost of the segment from p to q: that of the mesh edge it lies on, if any.
 double segment_crease(const Surface& surface, const Energy& energy, const SurfacePoint& p, const SurfacePoint& q) {
-    const SharedEdge edge(p, q);
-    if (edge.a < 0 || energy.plain_crease_cost() == 0.0) return energy.plain_crease_cost();
-    const int forward = surface.find_halfedge(edge.a, edge.b), backward = surface.find_halfedge(edge.b, edge.a);
-    return forward < 0 && backward < 0 ? energy.plain_crease_cost() : energy.crease_cost(forward >= 0 ? forward : backward);
+    const auto edge = shared_edge(p, q);
+    if (!edge || energy.plain_crease_cost() == 0.0) return energy.plain_crease_cost();
+    return energy.crease_cost(surface.find_edge(edge->a, edge->b));
 }
 
 }  // namespace
@@ -131,18 +131,17 @@ double segment_crease(const Surface& surface, const Energy& energy, const Surfac
 Contour expressed(const Contour& contour, int steiner) {
     if (steiner == 0) return contour;
     Contour result{{}, contour.closed};
-    const std::size_t count = contour.points.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        const SurfacePoint &p = contour.points[i], &q = contour.points[(i + 1) % count];
+    for (const auto& [p, q] : segments(contour)) {
         result.points.push_back(p);
-        const SharedEdge edge(p, q);
-        if (edge.a < 0 || (!contour.closed && i + 1 == count)) continue;
-        const double from = edge.parameter(p), to = edge.parameter(q);
+        const auto edge = shared_edge(p, q);
+        if (!edge) continue;
+        const double from = edge->parameter(p), to = edge->parameter(q);
         for (int s = 1; s <= steiner; ++s) {
             const double t = static_cast<double>(from < to ? s : steiner + 1 - s) / (steiner + 1);
-            if (t > std::min(from, to) + 1e-9 && t < std::max(from, to) - 1e-9) result.points.push_back({edge.a, edge.b, t});
+            if (t > std::min(from, to) + 1e-9 && t < std::max(from, to) - 1e-9) result.points.push_back({edge->a, edge->b, t});
         }
     }
+    if (!contour.closed) result.points.push_back(contour.points.back());
     return result;
 }
 
@@ -151,21 +150,20 @@ Measure measure(const Surface& surface, const Energy& energy, const Contour& giv
     Measure result;
     result.numerator = energy.region_factor() * enclosed;
     double bending = 0.0;
-    const std::size_t count = contour.points.size();
-    const auto position = [&](std::size_t i) { return surface.position(contour.points[i % count]); };
-    for (std::size_t i = 0; i < count; ++i) {
-        const Frame frame = energy.frame(contour.points[i]);
-        const auto end = [&](std::size_t from, std::size_t to) {
-            const double crease = segment_crease(surface, energy, contour.points[from % count], contour.points[to % count]);
-            return energy.chord_end(frame, position(to) - position(from), crease);
-        };
+    for (int i = 0; const SurfacePoint& point : contour.points) {
+        const Frame frame = energy.frame(point);
         // Open curves: half a chord at each end, with the end's own curvature.
-        const bool first = !contour.closed && i == 0, last = !contour.closed && i + 1 == count;
-        const ChordEnd in = first ? ChordEnd{} : end(i + count - 1, i + count), out = last ? ChordEnd{} : end(i, i + 1);
+        const auto end = [&](const SurfacePoint* from, const SurfacePoint* to) {
+            if (!from || !to) return ChordEnd{};
+            const double crease = segment_crease(surface, energy, *from, *to);
+            return energy.chord_end(frame, surface.position(*to) - surface.position(*from), crease);
+        };
+        const ChordEnd in = end(neighbor(contour, i, -1), &point), out = end(&point, neighbor(contour, i, 1));
         const ArcWeights weights = energy.weights(frame);
         result.numerator += weights.numerator(in, out);
         result.length += weights.denominator(in, out);
         bending += weights.bending(in, out);
+        ++i;
     }
     if (!(result.length > 0.0))
         throw InvalidInput(ErrorCode::no_length, "the contour has length 0: all its vertices lie at one point");

@@ -8,6 +8,7 @@
 #include "parallel.h"
 #include "partition.h"
 #include "progress_monitor.h"
+#include "segments.h"
 #include "surface_point.h"
 
 #include <algorithm>
@@ -26,12 +27,10 @@ std::vector<Edge> real_edges_along(const Surface& surface, const Contour& contou
         return std::min(p.a, p.b) >= 0 && std::max(p.a, p.b) < surface.vertex_count();
     };
     std::vector<Edge> edges;
-    const std::size_t count = contour.points.size();
-    for (std::size_t i = 0; i + (contour.closed ? 0 : 1) < count; ++i) {
-        const SurfacePoint &p = contour.points[i], &q = contour.points[(i + 1) % count];
+    for (const auto& [p, q] : segments(contour)) {
         if (!exists(p) || !exists(q)) continue;
-        const SharedEdge edge(p, q);
-        if (edge.a >= 0 && surface.real_edge(edge.a, edge.b)) edges.push_back({edge.a, edge.b});
+        const auto edge = shared_edge(p, q);
+        if (edge && surface.real_edge(edge->a, edge->b)) edges.push_back({edge->a, edge->b});
     }
     return edges;
 }

@@ -47,8 +47,7 @@ std::optional<Obstacle> obstacle(const Surface& surface, int halfedge) {
 }
 
 std::optional<Obstacle> obstacle(const Surface& surface, int a, int b) {
-    const int forward = surface.find_halfedge(a, b), backward = surface.find_halfedge(b, a);
-    const int halfedge = forward >= 0 ? forward : backward, twin = surface.twin(halfedge);
+    const int halfedge = surface.find_edge(a, b), twin = surface.twin(halfedge);
     if (twin < 0) return obstacle(surface, twin);
     const std::optional<Obstacle> left = obstacle(surface, halfedge), right = obstacle(surface, twin);
     return left && right ? left : std::nullopt;

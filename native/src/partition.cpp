@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "partition.h"
 
+#include "segments.h"
 #include "surface_point.h"
 
 #include <algorithm>
@@ -20,24 +21,12 @@ std::vector<int> polygon_vertices(const Patch& patch, int polygon) {
     return vertices;
 }
 
-/// The surface's number of the edge or diagonal between two vertices.
-int edge_between(const Surface& surface, int a, int b) {
-    for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
-        for (const int h : surface.outgoing(from)) {
-            if (surface.to(h) == to) return surface.edge(h);
-        }
-    }
-    return -1;
-}
-
 /// The faces inside which a contour runs, also where that is along a diagonal.
 std::vector<int> crossed_faces(const Surface& surface, const Contour& contour) {
     std::vector<int> faces;
-    const std::size_t count = contour.points.size();
-    for (std::size_t i = 0; i + (contour.closed ? 0 : 1) < count; ++i) {
-        const SurfacePoint &p = contour.points[i], &q = contour.points[(i + 1) % count];
-        const SharedEdge edge(p, q);
-        if (edge.a >= 0 && surface.real_edge(edge.a, edge.b)) continue;
+    for (const auto& [p, q] : segments(contour)) {
+        const auto edge = shared_edge(p, q);
+        if (edge && surface.real_edge(edge->a, edge->b)) continue;
         faces.push_back(surface.triangle_face(triangle_of_segment(surface, p, q)));
     }
     return faces;
@@ -62,17 +51,17 @@ bool Partition::has_other(std::span<const int> owners, int contour) {
 int Partition::edge_of(const Patch& patch, int e) const { return surface_.edge(patch.edge_halfedge(e)); }
 
 void Partition::occupy(int contour, const Contour& where) {
-    const std::size_t count = where.points.size();
+    const auto edge_between = [&](int a, int b) { return surface_.edge(surface_.find_edge(a, b, EdgeKind::any)); };
     for (const SurfacePoint& p : where.points) {
         if (p.is_vertex()) {
             add(vertices_, p.a, contour);
         } else {
-            add(edges_, edge_between(surface_, p.a, p.b), contour);
+            add(edges_, edge_between(p.a, p.b), contour);
         }
     }
-    for (std::size_t i = 0; i + (where.closed ? 0 : 1) < count; ++i) {
-        const SharedEdge edge(where.points[i], where.points[(i + 1) % count]);
-        if (edge.a >= 0 && surface_.real_edge(edge.a, edge.b)) add(edges_, edge_between(surface_, edge.a, edge.b), contour);
+    for (const auto& [p, q] : segments(where)) {
+        const auto edge = shared_edge(p, q);
+        if (edge && surface_.real_edge(edge->a, edge->b)) add(edges_, edge_between(edge->a, edge->b), contour);
     }
     for (const int face : crossed_faces(surface_, where)) add(faces_, face, contour);
 }

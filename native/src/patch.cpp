@@ -3,6 +3,7 @@
 
 #include "distances.h"
 #include "obstacles.h"
+#include "segments.h"
 #include "snapped_contour.h"
 
 #include <stdexcept>
@@ -118,9 +119,8 @@ class PatchBuilder {
 
 bool has_neighbor_along_edges(const Surface& surface, const Contour& contour) {
     const std::vector<int> snapped = snapped_contour(surface, contour);
-    const std::size_t count = snapped.size();
-    for (std::size_t i = 0; i + (contour.closed ? 0 : 1) < count; ++i) {
-        if (obstacle(surface, snapped[i], snapped[(i + 1) % count])) return false;
+    for (const auto& [a, b] : segments(snapped, contour.closed)) {
+        if (obstacle(surface, a, b)) return false;
     }
     return !snapped.empty();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "region.h"
 
+#include "segments.h"
 #include "surface_point.h"
 
 #include "curvature_field.h"
@@ -130,9 +131,7 @@ double EdgeForm::along(const SurfacePoint& from, const SurfacePoint& to) const {
 
 double EdgeForm::along(const Contour& contour) const {
     double sum = 0.0;
-    const std::size_t count = contour.points.size();
-    for (std::size_t i = 0; i + (contour.closed ? 0 : 1) < count; ++i)
-        sum += along(contour.points[i], contour.points[(i + 1) % count]);
+    for (const auto& [p, q] : segments(contour)) sum += along(p, q);
     return sum;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "snapped_contour.h"
 
+#include "segments.h"
 #include "surface_point.h"
 
 #include <algorithm>
@@ -21,44 +22,47 @@ bool first_end_is_left(const Surface& surface, int triangle, const SurfacePoint&
     return true;
 }
 
-int snapped(const Surface& surface, const Contour& contour, std::size_t i, Snap snap) {
-    const SurfacePoint& p = contour.points[i];
+/// The end of its edge that a point moves to. `neighbor` is the point before it or, where `is_next`, the one after it.
+int snapped(const Surface& surface, const SurfacePoint& p, const SurfacePoint& neighbor, bool is_next, Snap snap) {
     if (p.is_vertex()) return p.a;
     if (snap == Snap::nearest) return p.t <= 0.5 ? p.a : p.b;
-    const std::size_t count = contour.points.size();
-    // At the beginning of an open curve there is only the triangle that it goes on into, where left and right change places.
-    const bool begins = !contour.closed && i == 0;
-    const int triangle = triangle_of_segment(surface, contour.points[begins ? 1 : (i + count - 1) % count], p);
-    const bool left = first_end_is_left(surface, triangle, p) != begins;
+    // Entering a triangle through an edge, left and right change places.
+    const bool left = first_end_is_left(surface, triangle_of_segment(surface, neighbor, p), p) != is_next;
     return left == (snap == Snap::left) ? p.a : p.b;
 }
 
-/// The shorter way round the polygon from a to b, both of which it holds; without a, with b.
-void append_way(const Surface& surface, int face, int a, int b, std::vector<int>& chain) {
+int first_snapped(const Surface& surface, const Contour& contour, Snap snap) {
+    const auto& points = contour.points;
+    return contour.closed ? snapped(surface, points.front(), points.back(), false, snap)
+                          : snapped(surface, points.front(), points[1], true, snap);
+}
+
+/// The shorter path round the polygon from a to b, both of which it holds; without a, with b.
+void append_path(const Surface& surface, int face, int a, int b, std::vector<int>& chain) {
     const auto corners = surface.face(face);
     const auto n = static_cast<std::ptrdiff_t>(corners.size());
     const auto place = [&](int v) { return std::ranges::find(corners, v) - corners.begin(); };
     const std::ptrdiff_t start = place(a), ahead = (place(b) - start + n) % n;
     const auto walk = [&](std::ptrdiff_t steps, std::ptrdiff_t direction) {
-        std::vector<int> way;
-        for (std::ptrdiff_t i = 1; i <= steps; ++i) way.push_back(corners[(start + direction * i + n * i) % n]);
-        return way;
+        std::vector<int> path;
+        for (std::ptrdiff_t i = 1; i <= steps; ++i) path.push_back(corners[(start + direction * i + n * i) % n]);
+        return path;
     };
-    const auto length = [&](const std::vector<int>& way) {
+    const auto length = [&](const std::vector<int>& path) {
         double sum = 0.0;
         int last = a;
-        for (const int v : way) {
+        for (const int v : path) {
             sum += (surface.position(v) - surface.position(last)).norm();
             last = v;
         }
         return sum;
     };
     const std::vector<int> forward = walk(ahead, 1), backward = walk(n - ahead, -1);
-    const auto& way = length(forward) <= length(backward) ? forward : backward;
-    chain.insert(chain.end(), way.begin(), way.end());
+    const auto& path = length(forward) <= length(backward) ? forward : backward;
+    chain.insert(chain.end(), path.begin(), path.end());
 }
 
-/// Takes out steps there and back, which enclose nothing.
+/// Removes steps there and back, which enclose nothing.
 std::vector<int> without_spurs(const std::vector<int>& chain, bool closed) {
     std::vector<int> kept;
     for (const int v : chain) {
@@ -82,17 +86,14 @@ std::vector<int> without_spurs(const std::vector<int>& chain, bool closed) {
 }
 
 std::vector<int> snapped_chain(const Surface& surface, const Contour& contour, Snap snap) {
-    const std::size_t count = contour.points.size();
-    std::vector<int> chain{snapped(surface, contour, 0, snap)};
-    for (std::size_t i = 0; i + (contour.closed ? 0 : 1) < count; ++i) {
-        const std::size_t j = (i + 1) % count;
-        const int a = chain.back(), b = snapped(surface, contour, j, snap);
+    std::vector<int> chain{first_snapped(surface, contour, snap)};
+    for (const auto& [p, q] : segments(contour)) {
+        const int a = chain.back(), b = snapped(surface, q, p, false, snap);
         if (a == b) continue;
         if (surface.real_edge(a, b)) {
             chain.push_back(b);
         } else {
-            const int triangle = triangle_of_segment(surface, contour.points[i], contour.points[j]);
-            append_way(surface, surface.triangle_face(triangle), a, b, chain);
+            append_path(surface, surface.triangle_face(triangle_of_segment(surface, p, q)), a, b, chain);
         }
     }
     if (contour.closed && chain.size() > 1 && chain.front() == chain.back()) chain.pop_back();

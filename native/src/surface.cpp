@@ -211,9 +211,10 @@ std::span<const int> Surface::outgoing(int vertex) const {
     return std::span(outgoing_).subspan(outgoing_offsets_[vertex], outgoing_offsets_[vertex + 1] - outgoing_offsets_[vertex]);
 }
 
-int Surface::find_halfedge(int a, int b) const {
+int Surface::find_halfedge(int a, int b, EdgeKind kind) const {
     const std::span<const int> candidates = outgoing(a);
-    const auto found = std::ranges::find_if(candidates, [&](int h) { return to(h) == b && !diagonal(h); });
+    const auto found =
+        std::ranges::find_if(candidates, [&](int h) { return to(h) == b && (kind == EdgeKind::any || !diagonal(h)); });
     return found == candidates.end() ? no_element : *found;
 }
 

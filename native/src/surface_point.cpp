@@ -4,15 +4,11 @@
 #include <algorithm>
 
 namespace mrc {
-namespace {
 
-/// True where the point lies on the triangle's border.
 bool on_triangle(const Surface& surface, int triangle, const SurfacePoint& p) {
     const auto& v = surface.triangle(triangle);
     return std::ranges::find(v, p.a) != v.end() && std::ranges::find(v, p.b) != v.end();
 }
-
-}  // namespace
 
 Contour normalized(const Contour& contour) {
     Contour result = contour;

@@ -2,6 +2,7 @@
 #include "trace_contour.h"
 
 #include "flow_levels.h"
+#include "segments.h"
 #include "surface_point.h"
 
 #include <algorithm>
@@ -9,30 +10,14 @@
 namespace mrc {
 namespace {
 
-/// The polygons round a vertex or beside an edge.
-std::vector<int> faces_at(const Surface& surface, const SurfacePoint& point) {
-    std::vector<int> faces;
-    for (const int h : surface.outgoing(point.a)) {
-        if (point.is_vertex() || surface.to(h) == point.b) faces.push_back(surface.halfedge_face(h));
-    }
-    if (point.is_vertex()) return faces;
-    for (const int h : surface.outgoing(point.b)) {
-        if (surface.to(h) == point.a) faces.push_back(surface.halfedge_face(h));
-    }
-    return faces;
-}
-
 int face_of_segment(const Surface& surface, const SurfacePoint& p, const SurfacePoint& q) {
-    if (const SharedEdge edge(p, q); edge.a >= 0) {
-        const bool forward = edge.parameter(p) < edge.parameter(q);
-        const int left = forward ? surface.find_halfedge(edge.a, edge.b) : surface.find_halfedge(edge.b, edge.a);
+    if (const auto edge = shared_edge(p, q)) {
+        const bool forward = edge->parameter(p) < edge->parameter(q);
+        const int left = forward ? surface.find_halfedge(edge->a, edge->b) : surface.find_halfedge(edge->b, edge->a);
         if (left >= 0) return surface.halfedge_face(left);
     }
-    const std::vector<int> candidates = faces_at(surface, q);
-    for (const int face : faces_at(surface, p)) {
-        if (std::ranges::find(candidates, face) != candidates.end()) return face;
-    }
-    return -1;
+    const int triangle = triangle_of_segment(surface, p, q);
+    return triangle < 0 ? -1 : surface.triangle_face(triangle);
 }
 
 }  // namespace
@@ -57,10 +42,7 @@ Contour trace_contour(const ContourGraph& graph, const Patch& patch, std::span<c
 
 std::vector<int> segment_faces(const Surface& surface, const Contour& contour) {
     std::vector<int> faces;
-    const std::size_t count = contour.points.size();
-    for (std::size_t i = 0; i + (contour.closed ? 0 : 1) < count; ++i) {
-        faces.push_back(face_of_segment(surface, contour.points[i], contour.points[(i + 1) % count]));
-    }
+    for (const auto& [p, q] : segments(contour)) faces.push_back(face_of_segment(surface, p, q));
     return faces;
 }
 

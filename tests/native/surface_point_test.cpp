@@ -25,21 +25,23 @@ TEST_F(SurfacePoints, the_ends_of_an_edge_are_written_as_vertices_and_nothing_el
 TEST_F(SurfacePoints, an_edge_holds_its_ends_and_its_points_whichever_way_they_are_written) {
     for (const SurfacePoint& p : {vertex_point(1), SurfacePoint{1, 4, 0.25}, SurfacePoint{4, 1, 0.75}}) {
         for (const SurfacePoint& q : {vertex_point(4), SurfacePoint{1, 4, 0.5}, SurfacePoint{4, 1, 0.5}}) {
-            const SharedEdge edge(p, q), back(q, p);
-            ASSERT_EQ(std::minmax(edge.a, edge.b), std::minmax(1, 4));
-            ASSERT_EQ(std::minmax(back.a, back.b), std::minmax(1, 4));
-            const Vec3 a = surface.position(edge.a), b = surface.position(edge.b);
-            EXPECT_TRUE(((1.0 - edge.parameter(p)) * a + edge.parameter(p) * b).isApprox(surface.position(p)));
-            EXPECT_TRUE(((1.0 - edge.parameter(q)) * a + edge.parameter(q) * b).isApprox(surface.position(q)));
+            const auto edge = shared_edge(p, q), back = shared_edge(q, p);
+            ASSERT_TRUE(edge && back);
+            ASSERT_EQ(std::minmax(edge->a, edge->b), std::minmax(1, 4));
+            ASSERT_EQ(std::minmax(back->a, back->b), std::minmax(1, 4));
+            EXPECT_TRUE(edge->holds(p) && edge->holds(q));
+            const Vec3 a = surface.position(edge->a), b = surface.position(edge->b);
+            EXPECT_TRUE(((1.0 - edge->parameter(p)) * a + edge->parameter(p) * b).isApprox(surface.position(p)));
+            EXPECT_TRUE(((1.0 - edge->parameter(q)) * a + edge->parameter(q) * b).isApprox(surface.position(q)));
         }
     }
 }
 
 TEST_F(SurfacePoints, points_of_two_edges_and_one_vertex_twice_share_none) {
-    EXPECT_LT(SharedEdge({0, 1, 0.5}, {1, 4, 0.5}).a, 0);
-    EXPECT_LT(SharedEdge({0, 1, 0.5}, vertex_point(4)).a, 0);
-    EXPECT_LT(SharedEdge(vertex_point(4), {0, 1, 0.5}).a, 0);
-    EXPECT_LT(SharedEdge(vertex_point(1), vertex_point(1)).a, 0);
+    EXPECT_FALSE(shared_edge({0, 1, 0.5}, {1, 4, 0.5}));
+    EXPECT_FALSE(shared_edge({0, 1, 0.5}, vertex_point(4)));
+    EXPECT_FALSE(shared_edge(vertex_point(4), {0, 1, 0.5}));
+    EXPECT_FALSE(shared_edge(vertex_point(1), vertex_point(1)));
 }
 
 TEST_F(SurfacePoints, a_segments_triangle_holds_both_its_ends) {

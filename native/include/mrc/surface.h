@@ -21,6 +21,9 @@ struct SurfaceArrays {
     std::span<const int32_t> hidden_faces;   ///< ids of faces that no band enters
 };
 
+/// Which edges a look-up finds: sides of polygons alone, or diagonals as well.
+enum class EdgeKind { real, any };
+
 /// A validated, immutable mesh of polygons with its triangulation and adjacency.
 ///
 /// Half-edge 3 t + c runs from corner c of triangle t to the next corner. An edge is *real* where it is a side of a polygon and a
@@ -71,10 +74,15 @@ class Surface {
     /// True where the faces round the vertex form one fan, open or closed, of edges with agreeing winding.
     bool regular(int vertex) const { return regular_[vertex] != 0; }
 
-    /// A real half-edge from a to b, or `no_element`: the first by index where there are several.
-    int find_halfedge(int a, int b) const;
+    /// A half-edge from a to b, or `no_element`: the first by index where there are several.
+    int find_halfedge(int a, int b, EdgeKind kind = EdgeKind::real) const;
+    /// A half-edge between a and b, from a to b if possible, or `no_element`.
+    int find_edge(int a, int b, EdgeKind kind = EdgeKind::real) const {
+        const int forward = find_halfedge(a, b, kind);
+        return forward >= 0 ? forward : find_halfedge(b, a, kind);
+    }
     /// True where a and b are the ends of a real edge, in whichever direction its faces run.
-    bool real_edge(int a, int b) const { return find_halfedge(a, b) >= 0 || find_halfedge(b, a) >= 0; }
+    bool real_edge(int a, int b) const { return find_edge(a, b) >= 0; }
 
     /// The area-weighted mean distance of the face centroids of a vertex's connected component from their centroid. The first call
     /// makes it for all components, also where several threads call it at once.
