@@ -8,16 +8,15 @@
 namespace mrc {
 namespace {
 
-using Halfedge = PatchMesh::HalfedgeHandle;
-
 /// A point on a triangle's border, with the whole number that lifts its flow value to the triangle's first corner's.
 struct LiftedPoint {
     int point, lift;
 };
 
-class Builder {
+class AmbientGraphBuilder {
   public:
-    Builder(const Patch& patch, const Band& band, const Flow& flow, int steiner) : patch_(patch), band_(band), flow_(flow) {
+    AmbientGraphBuilder(const Patch& patch, const Band& band, const Flow& flow, int steiner)
+        : patch_(patch), band_(band), flow_(flow) {
         ambient_.steiner = steiner;
     }
 
@@ -42,8 +41,6 @@ class Builder {
     Flow flow_;
     AmbientGraph ambient_;
 
-    int from(int h) const { return patch_.mesh.from_vertex_handle(Halfedge(h)).idx(); }
-    int to(int h) const { return patch_.mesh.to_vertex_handle(Halfedge(h)).idx(); }
     double rank(int v) const { return static_cast<double>(band_.side[v]) * patch_.distance[v]; }
     /// The regular graph never sees a diagonal; refined chords may cross one or run along it.
     bool used(int e) const { return band_.edge[e] && (ambient_.steiner > 0 || !patch_.diagonal[e]); }
@@ -55,12 +52,12 @@ class Builder {
         for (int e = 0; e < static_cast<int>(patch_.mesh.n_edges()); ++e) {
             if (!used(e)) continue;
             edges.push_back(e);
-            uncut.push_back({from(2 * e), to(2 * e), flow_.jump[2 * e], -1, -1});
+            uncut.push_back({patch_.from(2 * e), patch_.to(2 * e), flow_.jump[2 * e], -1, -1});
         }
         merge_levels(flow_.value, uncut, level_vertices);
         for (std::size_t i = 0; i < edges.size(); ++i) {
             flow_.jump[2 * edges[i]] = uncut[i].jump;
-            flow_.jump[2 * edges[i] + 1] = -uncut[i].jump;
+            flow_.jump[opposite(2 * edges[i])] = -uncut[i].jump;
         }
     }
 
@@ -81,7 +78,7 @@ class Builder {
         ambient_.first_point_of_edge.assign(patch_.mesh.n_edges(), -1);
         for (int e = 0; e < static_cast<int>(patch_.mesh.n_edges()); ++e) {
             if (ambient_.steiner == 0 || !used(e)) continue;
-            const int a = from(2 * e), b = to(2 * e);
+            const int a = patch_.from(2 * e), b = patch_.to(2 * e);
             ambient_.first_point_of_edge[e] = static_cast<int>(ambient_.places.size());
             for (int i = 1; i <= ambient_.steiner; ++i) {
                 const double t = static_cast<double>(i) / (ambient_.steiner + 1);
@@ -98,12 +95,13 @@ class Builder {
             if (!used(e)) continue;
             const int halfedge = patch_.halfedge[2 * e] >= 0 ? patch_.halfedge[2 * e] : patch_.halfedge[2 * e + 1];
             const bool walkable = !patch_.border_edge[e];
-            int last = ambient_.point_of_vertex[from(2 * e)];
+            int last = ambient_.point_of_vertex[patch_.from(2 * e)];
             for (int i = 0; i < ambient_.steiner; ++i) {
                 ambient_.segments.push_back({last, ambient_.first_point_of_edge[e] + i, 0, halfedge, -1, walkable});
                 last = ambient_.first_point_of_edge[e] + i;
             }
-            ambient_.segments.push_back({last, ambient_.point_of_vertex[to(2 * e)], flow_.jump[2 * e], halfedge, -1, walkable});
+            ambient_.segments.push_back(
+                {last, ambient_.point_of_vertex[patch_.to(2 * e)], flow_.jump[2 * e], halfedge, -1, walkable});
         }
     }
 
@@ -131,7 +129,7 @@ class Builder {
         auto h = patch_.mesh.halfedge_handle(PatchMesh::FaceHandle(f));
         int lift = 0;
         for (std::size_t i = 0; i < 3; ++i, h = patch_.mesh.next_halfedge_handle(h)) {
-            corners[i] = {ambient_.point_of_vertex[from(h.idx())], lift};
+            corners[i] = {ambient_.point_of_vertex[patch_.from(h.idx())], lift};
             const int next = lift + flow_.jump[h.idx()];
             const bool forward = h.idx() % 2 == 0;
             for (int s = 0; s < ambient_.steiner; ++s)
@@ -151,7 +149,7 @@ int AmbientGraph::point_at(const Patch& patch, const SurfacePoint& place) const 
     const int a = vertex(place.a), b = vertex(place.b);
     if (a < 0 || b < 0) return -1;
     if (place.is_vertex()) return point_of_vertex[a];
-    const auto h = patch.mesh.find_halfedge(PatchMesh::VertexHandle(a), PatchMesh::VertexHandle(b));
+    const auto h = patch.find_halfedge(a, b);
     if (!h.is_valid() || first_point_of_edge[h.idx() / 2] < 0) return -1;
     const double t = (h.idx() % 2 == 0 ? place.t : 1.0 - place.t) * (steiner + 1);
     if (std::abs(t - std::round(t)) > 1e-9) return -1;
@@ -159,7 +157,7 @@ int AmbientGraph::point_at(const Patch& patch, const SurfacePoint& place) const 
 }
 
 AmbientGraph make_ambient_graph(const Patch& patch, const Band& band, const Flow& flow, int steiner) {
-    return Builder(patch, band, flow, steiner).build();
+    return AmbientGraphBuilder(patch, band, flow, steiner).build();
 }
 
 }  // namespace mrc

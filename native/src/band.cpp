@@ -14,12 +14,10 @@
 namespace mrc {
 namespace {
 
-using Halfedge = PatchMesh::HalfedgeHandle;
-
 /// The real half-edges round each polygon, in its own direction.
-class PolygonSides {
+class PolygonHalfedges {
   public:
-    explicit PolygonSides(const Patch& patch) {
+    explicit PolygonHalfedges(const Patch& patch) {
         first_.push_back(0);
         for (int p = 0; p < patch.polygon_count(); ++p) {
             append(patch, p);
@@ -34,25 +32,19 @@ class PolygonSides {
     std::vector<int> first_, sides_;
 
     void append(const Patch& patch, int polygon) {
-        const PatchMesh& mesh = patch.mesh;
-        const auto next_side = [&](Halfedge h) {
-            h = mesh.next_halfedge_handle(h);
-            while (patch.diagonal_halfedge(h.idx())) h = mesh.next_halfedge_handle(mesh.opposite_halfedge_handle(h));
-            return h;
-        };
-        // A triangle of the polygon may have no real side; its first face's walk reaches one all the same.
-        const Halfedge start = next_side(mesh.halfedge_handle(PatchMesh::FaceHandle(patch.first_face[polygon])));
+        // A triangle of the polygon may have no real side; from its first face one is reached all the same.
+        const Halfedge start = patch.next_side(patch.mesh.halfedge_handle(PatchMesh::FaceHandle(patch.first_face[polygon])));
         Halfedge h = start;
         do {
             sides_.push_back(h.idx());
-            h = next_side(h);
+            h = patch.next_side(h);
         } while (h != start);
     }
 };
 
 /// The order in which polygons compete: of distance, rounded so that equal ones stay equal under rounding; then of position. Gives
 /// the place of each.
-std::vector<int> polygon_ranks(const Patch& patch, const PolygonSides& sides, const Beat& beat) {
+std::vector<int> polygon_ranks(const Patch& patch, const PolygonHalfedges& sides, const Beat& beat) {
     double length = 0.0;
     for (const int h : contour_halfedges(patch)) length += patch.mesh.calc_edge_length(Halfedge(h));
     using Key = std::tuple<double, double, double, double, int>;
@@ -86,7 +78,7 @@ std::vector<char> barrier_edges(const Patch& patch, const Constraints& constrain
     for (const auto& [a, b] : constraints.barriers) {
         const auto p = local.find(a), q = local.find(b);
         if (p == local.end() || q == local.end()) continue;
-        const auto h = patch.mesh.find_halfedge(PatchMesh::VertexHandle(p->second), PatchMesh::VertexHandle(q->second));
+        const auto h = patch.find_halfedge(p->second, q->second);
         if (h.is_valid()) barrier[h.idx() / 2] = 1;
     }
     return barrier;
@@ -131,7 +123,7 @@ class Grower {
     const Patch& patch_;
     const Beat& beat_;
     const PatchMesh& mesh_;
-    PolygonSides sides_;
+    PolygonHalfedges sides_;
     double farthest_;            // how far from the contour the third and later rounds may reach
     std::vector<char> refused_;  // of each polygon
     Band band_;
@@ -140,7 +132,7 @@ class Grower {
     std::vector<int> rank_;        // of each polygon in the order of distance
     std::vector<int> candidates_;  // polygons that might enter in the last round
 
-    int from(int h) const { return mesh_.from_vertex_handle(Halfedge(h)).idx(); }
+    int from(int h) const { return patch_.from(h); }
     int polygon_of(int h) const {
         const auto face = mesh_.face_handle(Halfedge(h));
         return face.is_valid() ? patch_.polygon[face.idx()] : -1;
@@ -222,7 +214,7 @@ class Grower {
             enter(polygon, chain, round);
             grown = true;
             for (const int h : sides_[polygon]) {
-                const int neighbor = polygon_of(h ^ 1);
+                const int neighbor = polygon_of(opposite(h));
                 if (neighbor >= 0 && eligible[neighbor] && !polygon_in_[neighbor]) queue.emplace(rank_[neighbor], neighbor);
             }
         }

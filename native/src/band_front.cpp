@@ -1,24 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "band_front.h"
 
+#include "segments.h"
+
 #include <algorithm>
 #include <limits>
 #include <utility>
 
 namespace mrc {
-namespace {
-
-int opposite(int h) { return h ^ 1; }
-
-}  // namespace
 
 std::vector<int> contour_halfedges(const Patch& patch) {
-    const std::vector<int>& contour = patch.contour;
     std::vector<int> halfedges;
-    for (std::size_t i = 0; i + (patch.closed ? 0 : 1) < contour.size(); ++i) {
-        const PatchMesh::VertexHandle a(contour[i]), b(contour[(i + 1) % contour.size()]);
-        halfedges.push_back(patch.mesh.find_halfedge(a, b).idx());
-    }
+    for (const auto& [a, b] : segments(patch.contour, patch.closed)) halfedges.push_back(patch.find_halfedge(a, b).idx());
     return halfedges;
 }
 

@@ -38,8 +38,8 @@ class BandFront {
     std::vector<char> barrier_;
     std::vector<Side> front_;  // of each half-edge; outside: not on the front
 
-    int from(int h) const { return mesh_.from_vertex_handle(PatchMesh::HalfedgeHandle(h)).idx(); }
-    int to(int h) const { return mesh_.to_vertex_handle(PatchMesh::HalfedgeHandle(h)).idx(); }
+    int from(int h) const { return patch_.from(h); }
+    int to(int h) const { return patch_.to(h); }
     /// The band lies on the other side of a barrier: both sides of one never enter.
     bool is_blocked(int h) const { return front_[h] != Side::outside && barrier_[h / 2]; }
     int front_from(int vertex, Side side) const;

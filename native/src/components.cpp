@@ -35,7 +35,7 @@ int label(const Surface& surface, std::vector<int>& component) {
 
 /// Calls visit(component, area, centroid) for each polygon.
 template <class Visit>
-void for_each_face(const Surface& surface, const std::vector<int>& component, Visit&& visit) {
+void for_each_polygon(const Surface& surface, const std::vector<int>& component, Visit&& visit) {
     for (int f = 0; f < surface.face_count(); ++f) {
         const auto vertices = surface.face(f);
         Vec3 sum = Vec3::Zero();
@@ -48,15 +48,16 @@ void for_each_face(const Surface& surface, const std::vector<int>& component, Vi
 
 void Surface::Components::make(const Surface& surface) {
     std::vector<Sums> sums(label(surface, component));
-    for_each_face(surface, component, [&](int i, double area, const Vec3& center) {
+    for_each_polygon(surface, component, [&](int i, double area, const Vec3& center) {
         sums[i].area += area;
         sums[i].centroid += area * center;
     });
     for (Sums& s : sums) {
         if (s.area > 0.0) s.centroid /= s.area;
     }
-    for_each_face(surface, component,
-                  [&](int i, double area, const Vec3& center) { sums[i].distance += area * (center - sums[i].centroid).norm(); });
+    for_each_polygon(surface, component, [&](int i, double area, const Vec3& center) {
+        sums[i].distance += area * (center - sums[i].centroid).norm();
+    });
     for (const Sums& s : sums) radius.push_back(s.area > 0.0 ? s.distance / s.area : 0.0);
 }
 

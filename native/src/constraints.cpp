@@ -2,16 +2,14 @@
 #include <mrc/constraints.h>
 
 #include "element_names.h"
+#include "input_range.h"
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 #include <string>
 
 namespace mrc {
 namespace {
-
-bool usable(double value) { return std::abs(value) <= 1e50; }  // as positions
 
 void check_vertex(const Surface& surface, int vertex, const char* what) {
     if (vertex >= 0 && vertex < surface.vertex_count()) return;
@@ -44,7 +42,7 @@ void Constraints::check(const Surface& surface) const {
                                                       std::to_string(surface.face_count()) + " faces");
     }
     for (std::size_t f = 0; f < densities.size(); ++f) {
-        if (!usable(densities[f]))
+        if (!in_input_range(densities[f]))
             throw InvalidInput(ErrorCode::not_finite,
                                "the region density of face " + std::to_string(f) + " is not finite, or beyond 1e50",
                                {Element::face(static_cast<int>(f))});
@@ -55,10 +53,10 @@ void Constraints::check(const Surface& surface) const {
         const auto require = [&](bool valid, const std::string& fault) {
             if (!valid) throw InvalidInput(ErrorCode::invalid_attractor, name + " has " + fault, {Element::vertex(a.vertex)});
         };
-        require(usable(a.radius) && a.radius > 0.0,
+        require(in_input_range(a.radius) && a.radius > 0.0,
                 "radius " + std::to_string(a.radius) + ": it must be above 0, and no larger than 1e50");
-        require(usable(a.strength), "a strength that is not finite, or beyond 1e50");
-        require(!a.sigma || (usable(*a.sigma) && *a.sigma > 0.0), "a sigma that is not above 0, or beyond 1e50");
+        require(in_input_range(a.strength), "a strength that is not finite, or beyond 1e50");
+        require(!a.sigma || (in_input_range(*a.sigma) && *a.sigma > 0.0), "a sigma that is not above 0, or beyond 1e50");
     }
 }
 

@@ -64,11 +64,9 @@ Scales contour_scales(const Surface& surface, const CurvatureField& field, doubl
     const std::vector<int> near = vertices_within(surface, contour_ends(contour), rings);
     field.prepare(near, beat);
     for (const int v : near) {
-        const VertexCurvature c = field.at(v);
-        const double share = vertex_area(surface, v);
-        const double kappa = options.feature == Feature::ridge ? -c.kappa_max : c.kappa_min;
-        weighted += share * std::abs(kappa);
-        area += share;
+        const double weight = vertex_area(surface, v), kappa = feature_curvature(field.at(v), options.feature);
+        weighted += weight * std::abs(kappa);
+        area += weight;
         if (kappa < 0.0) features.push_back(-kappa);
     }
     Scales scales;

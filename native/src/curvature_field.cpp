@@ -27,7 +27,7 @@ double corner_angle(const Surface& surface, std::span<const int> face, std::size
 
 /// Calls visit(face) once for each polygon at a vertex, in ascending order.
 template <class Visit>
-void for_each_face(const Surface& surface, int vertex, Visit&& visit) {
+void for_each_face_at(const Surface& surface, int vertex, Visit&& visit) {
     int last = -1;
     for (const int h : surface.outgoing(vertex)) {
         if (surface.halfedge_face(h) != last) visit(last = surface.halfedge_face(h));
@@ -57,7 +57,7 @@ Vec3 polygon_area_vector(const Surface& surface, int face) {
 
 double vertex_area(const Surface& surface, int vertex) {
     double area = 0.0;
-    for_each_face(surface, vertex, [&](int face) {
+    for_each_face_at(surface, vertex, [&](int face) {
         area += polygon_area_vector(surface, face).norm() / static_cast<double>(surface.face(face).size());
     });
     return area;
@@ -65,7 +65,7 @@ double vertex_area(const Surface& surface, int vertex) {
 
 Vec3 vertex_normal(const Surface& surface, int vertex) {
     Vec3 sum = Vec3::Zero();
-    for_each_face(surface, vertex, [&](int face) { sum += weighted_normal(surface, face, vertex); });
+    for_each_face_at(surface, vertex, [&](int face) { sum += weighted_normal(surface, face, vertex); });
     return sum.norm() > 1e-12 ? Vec3(sum.normalized()) : Vec3(Vec3::UnitZ());
 }
 

@@ -37,6 +37,11 @@ class CurvatureField {
     std::unique_ptr<Impl> impl_;
 };
 
+/// Negative in what contours follow: in a valley, or on a ridge.
+inline double feature_curvature(const VertexCurvature& c, Feature feature) {
+    return feature == Feature::ridge ? -c.kappa_max : c.kappa_min;
+}
+
 /// The polygon's area vector (Newell): normal times area, whatever its triangulation.
 Vec3 polygon_area_vector(const Surface& surface, int face);
 

@@ -12,10 +12,8 @@
 namespace mrc {
 namespace {
 
-double cross(const Eigen::Vector2d& p, const Eigen::Vector2d& q) { return p.x() * q.y() - p.y() * q.x(); }
-
 /// The angle from p on to q, turning left, from 0 to 2 pi.
-double turn(const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
+double turn(const Vec2& p, const Vec2& q) {
     const double angle = std::atan2(cross(p, q), p.dot(q));
     return angle >= 0.0 ? angle : angle > -1e-9 ? 0.0 : angle + 2.0 * std::numbers::pi;
 }

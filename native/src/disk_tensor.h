@@ -2,6 +2,7 @@
 #pragma once
 
 #include "index_map.h"
+#include "plane.h"
 
 #include <mrc/surface.h>
 
@@ -36,8 +37,6 @@ class DiskTensors {
     double dihedral(int halfedge) { return edges_[edge_number(halfedge)].angle; }
 
   private:
-    using Vec2 = Eigen::Vector2d;
-
     struct Edge {
         Vec3 start, way;
         double length2, inverse_length2;  // 0 where it has no length

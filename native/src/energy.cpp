@@ -65,8 +65,7 @@ Frame Energy::vertex_frame(int vertex) const {
 
 /// Negative in a valley, cut off at the clamp.
 double Energy::feature(int vertex) const {
-    const VertexCurvature c = field_.at(vertex);
-    return std::max(options_.feature == Feature::ridge ? -c.kappa_max : c.kappa_min, -scales_.clamp);
+    return std::max(feature_curvature(field_.at(vertex), options_.feature), -scales_.clamp);
 }
 
 Frame Energy::interpolated_frame(const SurfacePoint& point) const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "exclude_segments.h"
 
+#include "segments.h"
+
 #include <algorithm>
 #include <set>
 #include <utility>
@@ -34,18 +36,17 @@ std::set<int> walls(const Surface& surface, const Patch& patch, const Exclusion&
 /// The segments of the contour's own places; its points are opened.
 std::set<std::pair<int, int>> own_segments(const Patch& patch, const Exclusion& exclusion, const AmbientGraph& ambient,
                                            std::vector<char>& closed) {
-    std::set<std::pair<int, int>> segments;
+    std::set<std::pair<int, int>> found;
     for (const Contour& own : exclusion.own) {
         std::vector<int> points;
         points.reserve(own.points.size());
         for (const SurfacePoint& p : own.points) points.push_back(ambient.point_at(patch, p));
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const int a = points[i], b = points[(i + 1) % points.size()];
-            if (a >= 0) closed[a] = 0;
-            if (b >= 0 && (own.closed || i + 1 < points.size())) segments.insert(std::minmax(a, b));
+        for (const int p : points) {
+            if (p >= 0) closed[p] = 0;
         }
+        for (const auto& [a, b] : segments(points, own.closed)) found.insert(std::minmax(a, b));
     }
-    return segments;
+    return found;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flow.h"
 
+#include "segments.h"
 #include "sparse_cholesky.h"
 #include "strip_flow.h"
 
@@ -9,24 +10,18 @@
 namespace mrc {
 namespace {
 
-using Halfedge = PatchMesh::HalfedgeHandle;
-
-int opposite(int h) { return h ^ 1; }
-
 /// The half-edges through which a shortest chain of faces leaves the band, starting at the face of half-edge `first` and keeping
 /// off the contour. Empty where `first` itself is on the band's border.
-std::vector<int> way_out(const Patch& patch, const Band& band, int first) {
+std::vector<int> path_out(const Patch& patch, const Band& band, int first) {
     const PatchMesh& mesh = patch.mesh;
     const auto face_of = [&](int h) {
         const auto face = mesh.face_handle(Halfedge(h));
         return face.is_valid() && band.face[face.idx()] ? face.idx() : -1;
     };
     std::vector<char> met(mesh.n_faces(), 0), wall(mesh.n_halfedges(), 0);
-    const std::size_t count = patch.contour.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        const auto h =
-            mesh.find_halfedge(PatchMesh::VertexHandle(patch.contour[i]), PatchMesh::VertexHandle(patch.contour[(i + 1) % count]));
-        wall[h.idx()] = wall[opposite(h.idx())] = 1;
+    for (const auto& [a, b] : segments(patch.contour, patch.closed)) {
+        const int h = patch.find_halfedge(a, b).idx();
+        wall[h] = wall[opposite(h)] = 1;
     }
     struct Step {
         int face, through, before;  // the face, the half-edge of the last face that led here, and that step
@@ -45,9 +40,9 @@ std::vector<int> way_out(const Patch& patch, const Band& band, int first) {
                 enter(face_of(opposite(h.idx())), h.idx(), static_cast<int>(i));
                 continue;
             }
-            std::vector<int> way{h.idx()};
-            for (int s = static_cast<int>(i); steps[s].before >= 0; s = steps[s].before) way.push_back(steps[s].through);
-            return way;
+            std::vector<int> path{h.idx()};
+            for (int s = static_cast<int>(i); steps[s].before >= 0; s = steps[s].before) path.push_back(steps[s].through);
+            return path;
         }
     }
     return {};
@@ -56,16 +51,15 @@ std::vector<int> way_out(const Patch& patch, const Band& band, int first) {
 /// A closed 1-form of whole numbers with period 1: it counts the crossings of a chain of faces across the band.
 std::vector<int> crossing_form(const Patch& patch, const Band& band) {
     std::vector<int> jump(patch.mesh.n_halfedges(), 0);
-    const auto h =
-        patch.mesh.find_halfedge(PatchMesh::VertexHandle(patch.contour[0]), PatchMesh::VertexHandle(patch.contour[1])).idx();
+    const int h = patch.find_halfedge(patch.contour[0], patch.contour[1]).idx();
     const auto cross = [&](int halfedge, int sign) {
         jump[halfedge] += sign;
         jump[opposite(halfedge)] -= sign;
     };
     // The chain runs from right to left; what crosses it from its left to its right runs along with the contour.
     cross(h, 1);
-    for (const int leaving : way_out(patch, band, h)) cross(leaving, -1);
-    for (const int leaving : way_out(patch, band, opposite(h))) cross(leaving, 1);
+    for (const int leaving : path_out(patch, band, h)) cross(leaving, -1);
+    for (const int leaving : path_out(patch, band, opposite(h))) cross(leaving, 1);
     return jump;
 }
 
@@ -109,7 +103,7 @@ Flow harmonic_flow(const Patch& patch, const Band& band, const Options& options,
     };
     for (int h = 0; h < static_cast<int>(mesh.n_halfedges()); h += 2) {
         if (!band.edge[h / 2] || patch.diagonal_halfedge(h)) continue;
-        const int a = mesh.from_vertex_handle(Halfedge(h)).idx(), b = mesh.to_vertex_handle(Halfedge(h)).idx();
+        const int a = patch.from(h), b = patch.to(h);
         add(a, b, flow.jump[h]);
         add(b, a, flow.jump[opposite(h)]);
     }

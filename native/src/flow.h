@@ -33,6 +33,6 @@ std::vector<int> border_piece(const Patch& patch, const Band& band, int vertex);
 /// strips between them that cover the vertices left over. Closed lists of patch vertices, or open ones from the first vertex of an
 /// open curve to its last; neighbors may share vertices but never cross. Every vertex of the band lies on one at least, but for
 /// those that only the band's end polygons hold.
-std::vector<std::vector<int>> strip_boundaries(const Patch& patch, const Band& band);
+std::vector<Curve> strip_boundaries(const Patch& patch, const Band& band);
 
 }  // namespace mrc

@@ -3,21 +3,19 @@
 
 #include <mrc/errors.h>
 
+#include "input_range.h"
+
 #include <cmath>
 #include <sstream>
 
 namespace mrc {
 namespace {
 
-constexpr double largest = 1e50;  // as of positions: products of weights and areas stay finite
-
-bool usable(double value) { return std::abs(value) <= largest; }
-
 void require(bool valid, const char* name, double value, const char* range) {
     if (valid) return;
     std::ostringstream message;
     message << "option " << name << " is " << value << ": it must be " << range;
-    if (std::abs(value) > largest) message << ", and no larger than " << largest;
+    if (std::abs(value) > largest_input) message << ", and no larger than " << largest_input;
     throw InvalidInput(ErrorCode::invalid_option, message.str());
 }
 
@@ -39,10 +37,11 @@ Options Options::recommended() {
 }
 
 void Options::check() const {
-    const auto finite_above = [](double value, double least) { return usable(value) && value > least; };
+    const auto finite_above = [](double value, double least) { return in_input_range(value) && value > least; };
     require(!width || *width >= 1, "width", width.value_or(1), "at least 1, or none for the whole surface");
     require(finite_above(curvature_radius, 0.0), "curvature_radius", curvature_radius, "above 0");
-    require(usable(curvature_smoothing) && curvature_smoothing >= 0.0, "curvature_smoothing", curvature_smoothing, "0 or more");
+    require(in_input_range(curvature_smoothing) && curvature_smoothing >= 0.0, "curvature_smoothing", curvature_smoothing,
+            "0 or more");
     require(finite_above(kappa0_factor, 0.0), "kappa0_factor", kappa0_factor, "above 0");
     const auto exponent = [](double value, const char* name) {
         require(value > 0.0 && value <= 16.0, name, value, "above 0 and at most 16");  // further powers are no numbers any more
@@ -51,15 +50,17 @@ void Options::check() const {
     exponent(direction_exponent, "direction_exponent");
     require(max_turn > 0.0 && max_turn <= std::numbers::pi + 1e-9, "max_turn", max_turn, "above 0 and at most pi");
     require(!band_distance || finite_above(*band_distance, 0.0), "band_distance", band_distance.value_or(0.0), "above 0, or none");
-    require(usable(region_weight), "region_weight", region_weight, "a number");
-    const auto weight = [&](double value, const char* name) { require(usable(value) && value >= 0.0, name, value, "0 or more"); };
+    require(in_input_range(region_weight), "region_weight", region_weight, "a number");
+    const auto weight = [&](double value, const char* name) {
+        require(in_input_range(value) && value >= 0.0, name, value, "0 or more");
+    };
     weight(anchor, "anchor");
     weight(crease, "crease");
     weight(length_bias, "length_bias");
     weight(length_floor, "length_floor");
     require(!feature_clamp || (*feature_clamp > 0.0 && *feature_clamp < 1.0), "feature_clamp", feature_clamp.value_or(0.0),
             "between 0 and 1, or none");
-    require(!min_salience || usable(*min_salience), "min_salience", min_salience.value_or(0.0), "a number, or none");
+    require(!min_salience || in_input_range(*min_salience), "min_salience", min_salience.value_or(0.0), "a number, or none");
     if (length_bias > 0.0 && (length_measure == LengthMeasure::edges) != (denominator == Denominator::arcs)) {
         throw InvalidInput(
             ErrorCode::invalid_option,

@@ -19,6 +19,11 @@ struct PatchTraits : OpenMesh::DefaultTraits {
     using Normal = OpenMesh::Vec3d;
 };
 using PatchMesh = OpenMesh::TriMesh_ArrayKernelT<PatchTraits>;
+using Halfedge = PatchMesh::HalfedgeHandle;
+using Curve = std::vector<int>;  ///< patch vertices in order, each joined to the next by an edge
+
+/// The two half-edges of patch edge e are 2 e and 2 e + 1.
+inline int opposite(int halfedge) { return halfedge ^ 1; }
 
 /// The neighborhood of a contour as a triangle mesh of its own, with maps back to the surface.
 ///
@@ -41,6 +46,18 @@ struct Patch {
 
     int polygon_count() const { return static_cast<int>(polygon_face.size()); }
     bool diagonal_halfedge(int h) const { return diagonal[h / 2] != 0; }
+    int from(int h) const { return mesh.from_vertex_handle(Halfedge(h)).idx(); }
+    int to(int h) const { return mesh.to_vertex_handle(Halfedge(h)).idx(); }
+    /// The half-edge from vertex a to vertex b; invalid where there is none.
+    Halfedge find_halfedge(int a, int b) const {
+        return mesh.find_halfedge(PatchMesh::VertexHandle(a), PatchMesh::VertexHandle(b));
+    }
+    /// The real half-edge that follows one round its polygon.
+    Halfedge next_side(Halfedge h) const {
+        h = mesh.next_halfedge_handle(h);
+        while (diagonal_halfedge(h.idx())) h = mesh.next_halfedge_handle(mesh.opposite_halfedge_handle(h));
+        return h;
+    }
     /// A surface half-edge of a patch edge.
     int edge_halfedge(int e) const { return std::max(halfedge[2 * e], halfedge[2 * e + 1]); }
 };

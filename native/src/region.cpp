@@ -73,7 +73,7 @@ EdgeForm gather(const Surface& surface, const Tree& tree, std::span<const double
 
 /// Of triangles in the order of their distance from two contours, the last that is sure to lie outside what moving one into the other
 /// passes: one at the border of the mesh, which no band encloses; without a border, the last of all.
-int outside(const Surface& surface, const std::vector<int>& triangles) {
+int outer_triangle(const Surface& surface, const std::vector<int>& triangles) {
     const auto at_border = [&](int t) {
         return surface.twin(3 * t) == Surface::border || surface.twin(3 * t + 1) == Surface::border ||
                surface.twin(3 * t + 2) == Surface::border;
@@ -177,7 +177,7 @@ double enclosed_change(const Surface& surface, std::span<const double> density, 
         }
     }
     const auto everywhere = [](int) { return true; };
-    const int root = outside(surface, grow_tree(surface, seeds, everywhere, beat).triangles);
+    const int root = outer_triangle(surface, grow_tree(surface, seeds, everywhere, beat).triangles);
     Tree tree = grow_tree(surface, {root}, everywhere, beat);
     for (int h = 3 * root; h < 3 * root + 3; ++h) {
         if (surface.twin(h) == Surface::border) tree.leaving[0] = h;  // through the border, so that the root counts too

@@ -54,8 +54,7 @@ class RequiredChords {
 
     void require_edge(int a, int b) {
         const int p = point_of(a), q = point_of(b);
-        const auto h =
-            patch_.mesh.find_halfedge(PatchMesh::VertexHandle(ambient_.local.at(a)), PatchMesh::VertexHandle(ambient_.local.at(b)));
+        const Halfedge h = patch_.find_halfedge(ambient_.local.at(a), ambient_.local.at(b));
         const int edge = h.is_valid() ? h.idx() / 2 : -1;
         if (edge < 0 || !input_.band.edge[edge] || patch_.diagonal[edge] || patch_.border_edge[edge]) {
             throw InvalidInput(

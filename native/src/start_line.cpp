@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "start_line.h"
 
-#include "strip.h"
-
 #include <algorithm>
 #include <functional>
 #include <limits>
@@ -12,9 +10,7 @@
 namespace mrc {
 namespace {
 
-using Curve = std::vector<int>;
 using Vertex = PatchMesh::VertexHandle;
-using Halfedge = PatchMesh::HalfedgeHandle;
 
 Curve across(const std::vector<int>& before, int last) {
     Curve path;
@@ -56,8 +52,8 @@ void mark_behind(const Patch& patch, const Band& band, Halfedge left_border, Ope
     const PatchMesh& mesh = patch.mesh;
     const auto in_band = [&](Halfedge h) { return mesh.face_handle(h).is_valid() && band.face[mesh.face_handle(h).idx()]; };
     for (size_t k = 0; k < cut.line.size(); ++k) {
-        Halfedge h = k + 1 < cut.line.size() ? halfedge(mesh, cut.line[k], cut.line[k + 1]) : left_border;
-        const Halfedge stop = k > 0 ? halfedge(mesh, cut.line[k], cut.line[k - 1]) : Halfedge();
+        Halfedge h = k + 1 < cut.line.size() ? patch.find_halfedge(cut.line[k], cut.line[k + 1]) : left_border;
+        const Halfedge stop = k > 0 ? patch.find_halfedge(cut.line[k], cut.line[k - 1]) : Halfedge();
         for (; h != stop && in_band(h); h = mesh.opposite_halfedge_handle(mesh.prev_halfedge_handle(h))) cut.behind[h.idx()] = 1;
     }
 }
@@ -71,18 +67,18 @@ OpenedBand cut_open(const Patch& patch, const Band& band, const std::vector<Curv
     cut.line = start_line(patch, band, strips.front(), strips.back());
     const Curve& left = strips.back();
     const auto end = std::find(left.begin(), left.end(), cut.line.back());
-    const Halfedge border = halfedge(mesh, *end, end == left.begin() ? left.back() : *(end - 1));
+    const Halfedge border = patch.find_halfedge(*end, end == left.begin() ? left.back() : *(end - 1));
     mark_behind(patch, band, border, cut);
     for (const auto f : mesh.faces()) {
         if (!band.face[f.idx()]) continue;
         for (const auto h : mesh.fh_range(f)) {
             cut.jump[h.idx()] = cut.behind[mesh.next_halfedge_handle(h).idx()] - cut.behind[h.idx()];
-            cut.jump[h.idx() ^ 1] = -cut.jump[h.idx()];
+            cut.jump[opposite(h.idx())] = -cut.jump[h.idx()];
         }
     }
     // The border's edge lies behind the line also where it is a contour edge without a face.
     cut.jump[border.idx()] = -1;
-    cut.jump[border.idx() ^ 1] = 1;
+    cut.jump[opposite(border.idx())] = 1;
     return cut;
 }
 

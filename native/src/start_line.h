@@ -17,6 +17,6 @@ struct OpenedBand {
 };
 
 /// Cuts a band open along the shortest path across it. `strips`: its strip boundaries, from right to left.
-OpenedBand cut_open(const Patch& patch, const Band& band, const std::vector<std::vector<int>>& strips);
+OpenedBand cut_open(const Patch& patch, const Band& band, const std::vector<Curve>& strips);
 
 }  // namespace mrc

@@ -45,8 +45,4 @@ struct Gate {
     double length = 0.0;
 };
 
-inline PatchMesh::HalfedgeHandle halfedge(const PatchMesh& mesh, int a, int b) {
-    return PatchMesh::HalfedgeHandle(mesh.find_halfedge(PatchMesh::VertexHandle(a), PatchMesh::VertexHandle(b)).idx());
-}
-
 }  // namespace mrc

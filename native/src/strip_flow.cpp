@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "strip_flow.h"
 
+#include "segments.h"
 #include "start_line.h"
 #include "strip.h"
 #include "strip_gates.h"
@@ -12,9 +13,6 @@
 
 namespace mrc {
 namespace {
-
-using Curve = std::vector<int>;
-using Halfedge = PatchMesh::HalfedgeHandle;
 
 constexpr double least_slope = 0.01;  // of the flow between two gates, in the strip's mean slope
 constexpr double least_edge = 1e-3;   // arc length of an edge, in the strip's mean edge: zero-length edges rise too
@@ -114,8 +112,7 @@ class StripFlow {
     Strip unroll(const Curve& curve) const {
         Strip strip{curve, {0}, {0.0}, {}, 0.0, patch_.closed};
         std::vector<Halfedge> edges;
-        for (size_t i = 0; i + !strip.closed < curve.size(); ++i)
-            edges.push_back(halfedge(mesh_, curve[i], curve[(i + 1) % curve.size()]));
+        for (const auto& [a, b] : segments(curve, strip.closed)) edges.push_back(patch_.find_halfedge(a, b));
         const auto [first, last] = strip.closed ? std::pair<size_t, size_t>(0, edges.size()) : rising_stretch(curve);
         double total = 0.0;
         for (size_t i = first; i < last; ++i) total += mesh_.calc_edge_length(edges[i]);
@@ -199,19 +196,13 @@ class StripFlow {
                 if (patch_.diagonal_halfedge(h.idx()) || !known_[h.from().idx()]) continue;
                 Curve between;
                 Halfedge side = h;
-                for (; !known_[mesh_.to_vertex_handle(side).idx()]; side = next_side(side))
+                for (; !known_[mesh_.to_vertex_handle(side).idx()]; side = patch_.next_side(side))
                     between.push_back(mesh_.to_vertex_handle(side).idx());
                 const double begin = value_[h.from().idx()], end = value_[mesh_.to_vertex_handle(side).idx()];
                 const double step = (end - begin) / (static_cast<double>(between.size()) + 1.0);
                 for (size_t i = 0; i < between.size(); ++i) settle(between[i], begin + step * (static_cast<double>(i) + 1.0));
             }
         }
-    }
-
-    Halfedge next_side(Halfedge h) const {
-        h = mesh_.next_halfedge_handle(h);
-        while (patch_.diagonal_halfedge(h.idx())) h = mesh_.next_halfedge_handle(mesh_.opposite_halfedge_handle(h));
-        return h;
     }
 
     /// Shared vertices first, then the shorter of the gates that cross each other.

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flow.h"
 
+#include "segments.h"
+
 #include <algorithm>
 
 namespace mrc {
-
 namespace {
-
-using Curve = std::vector<int>;
-
-PatchMesh::HalfedgeHandle opposite(int h) { return PatchMesh::HalfedgeHandle(h ^ 1); }
 
 /// Replays the growth of one side of the band, in layers whose outer borders are the strip boundaries.
 ///
@@ -43,8 +40,8 @@ class SideReplay {
     int round_ = 0;
     int base_ = 0;  // the first layer of the current round
 
-    int from(int h) const { return patch_.mesh.from_vertex_handle(PatchMesh::HalfedgeHandle(h)).idx(); }
-    int to(int h) const { return patch_.mesh.to_vertex_handle(PatchMesh::HalfedgeHandle(h)).idx(); }
+    int from(int h) const { return patch_.from(h); }
+    int to(int h) const { return patch_.to(h); }
     bool meets_band(int h) const;
     void split_sides(int polygon, std::vector<int>& inner, std::vector<int>& outer) const;
     int find_layer(int polygon, const std::vector<int>& inner, const std::vector<int>& outer);
@@ -63,11 +60,9 @@ SideReplay::SideReplay(const Patch& patch, const std::vector<Curve>& curves)
       new_border_(1) {
     for (const int v : curves[0]) arrival_[v] = 0;
     for (size_t r = 0; r < curves.size(); ++r) {
-        const Curve& curve = curves[r];
-        for (size_t i = patch.closed ? 0 : 1; i < curve.size(); ++i) {
-            const PatchMesh::VertexHandle a(curve[i > 0 ? i - 1 : curve.size() - 1]), b(curve[i]);
-            last_round_[patch.mesh.find_halfedge(a, b).idx()] = static_cast<int>(r);
-            if (r == 0) next_[a.idx()] = b.idx();
+        for (const auto& [a, b] : segments(curves[r], patch.closed)) {
+            last_round_[patch.find_halfedge(a, b).idx()] = static_cast<int>(r);
+            if (r == 0) next_[a] = b;
         }
     }
 }
@@ -75,8 +70,8 @@ SideReplay::SideReplay(const Patch& patch, const std::vector<Curve>& curves)
 /// True for a polygon's half-edge that the band has reached from below, on this side.
 bool SideReplay::meets_band(int h) const {
     if (last_round_[h] >= 0) return true;
-    const auto below = patch_.mesh.face_handle(opposite(h));
-    return below.is_valid() && polygon_layer_[patch_.polygon[below.idx()]] > 0 && last_round_[h ^ 1] < 0;
+    const auto below = patch_.mesh.face_handle(Halfedge(opposite(h)));
+    return below.is_valid() && polygon_layer_[patch_.polygon[below.idx()]] > 0 && last_round_[opposite(h)] < 0;
 }
 
 void SideReplay::split_sides(int polygon, std::vector<int>& inner, std::vector<int>& outer) const {
@@ -145,7 +140,7 @@ std::vector<Curve> backwards(std::vector<Curve> curves) {
 
 }  // namespace
 
-std::vector<std::vector<int>> strip_boundaries(const Patch& patch, const Band& band) {
+std::vector<Curve> strip_boundaries(const Patch& patch, const Band& band) {
     std::vector<Curve> strips = backwards(side_strips(patch, band, backwards(band.right)));
     std::reverse(strips.begin(), strips.end());
     strips.push_back(band.left.front());

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface_arrays.h"
 
+#include "input_range.h"
+
 #include <algorithm>
 #include <limits>
 
 namespace mrc {
 namespace {
-
-constexpr double farthest = 1e50;
 
 bool outside(int id, int count) { return static_cast<unsigned>(id) >= static_cast<unsigned>(count); }
 
@@ -75,7 +75,7 @@ std::vector<Vec3> copy_positions(std::span<const double> values) {
     for (size_t i = 0; i < values.size(); i += 3) {
         positions.emplace_back(values[i], values[i + 1], values[i + 2]);
         const Vec3& p = positions.back();
-        if ((p.array().abs() <= farthest).all()) continue;
+        if ((p.array().abs() <= largest_input).all()) continue;
         complaints.add(ErrorCode::not_finite, Element::vertex(static_cast<int>(i / 3)), [&] {
             const std::string where = element_name("vertex", static_cast<int64_t>(i / 3));
             if (!p.allFinite()) return where + " has a position that is not finite";

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "triangulate.h"
 
+#include "plane.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -8,8 +10,6 @@
 
 namespace mrc {
 namespace {
-
-using Vec2 = Eigen::Vector2d;
 
 // Below this sine (or share of a quad's area) a corner counts as straight: positions often come from 32-bit floats.
 constexpr double straight = 1e-6;
@@ -38,8 +38,6 @@ int quad_diagonal(std::span<const Vec3> q) {
     if (first_inside != second_inside) return first_inside ? 0 : 1;
     return second.squaredNorm() < (1.0 - tie) * first.squaredNorm() ? 1 : 0;
 }
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 double orientation(const Vec2& a, const Vec2& b, const Vec2& c) { return cross(b - a, c - a); }
 
