@@ -9,7 +9,7 @@
 namespace mrc {
 namespace {
 
-constexpr double slack = 1.0 + 1e-9;  // a sum of lengths may fall a little short of the way straight through space
+constexpr double slack = 1.0 + 1e-9;  // rounding: a sum of lengths may fall a little short of the straight distance
 
 std::vector<Eigen::AlignedBox3d> reaches(const Surface& surface, std::span<const Attractor> attractors) {
     std::vector<Eigen::AlignedBox3d> boxes;
@@ -36,7 +36,7 @@ double Attraction::at(const SurfacePoint& point) const {
         for (const int attractor : around(point.a)) sum += felt(attractor, point);
         return sum;
     }
-    // What is felt inside an edge is felt at one of its ends.
+    // An attractor that reaches a point inside an edge reaches one of its ends.
     std::vector<int> either;
     std::ranges::set_union(around(point.a), around(point.b), std::back_inserter(either));
     for (const int attractor : either) sum += felt(attractor, point);

@@ -13,8 +13,8 @@
 
 namespace mrc {
 
-/// What draws contours to places (4.5). Whole painted regions may be attractors: a place asks only those around it, and each is
-/// measured no farther than it is felt.
+/// The potential of the attractors (4.5). Whole painted regions may be attractors: a point asks only those nearby, and distances
+/// from each are computed only up to its radius.
 class Attraction {
   public:
     /// The surface must outlive it.
@@ -27,7 +27,7 @@ class Attraction {
     using Box = Eigen::AlignedBox3d;
     const Surface& surface_;
     std::vector<Attractor> attractors_;
-    std::vector<Box> reaches_;  // up to where each may be felt
+    std::vector<Box> reaches_;  // boxes around their radii
     Eigen::KdBVH<double, 3, int> tree_;
     mutable std::unordered_map<int, std::vector<int>> around_;  // of a vertex: the attractors near it, ascending
     mutable std::unordered_map<int, DistanceField> fields_;     // of an attractor

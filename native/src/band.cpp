@@ -14,7 +14,7 @@
 namespace mrc {
 namespace {
 
-/// The real half-edges round each polygon, in its own direction.
+/// The real half-edges around each polygon, in its own direction.
 class PolygonHalfedges {
   public:
     explicit PolygonHalfedges(const Patch& patch) {

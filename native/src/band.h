@@ -29,11 +29,11 @@ struct Band {
     std::vector<int> refused;  ///< local polygons that it met and that its exclusion refuses, ascending
 };
 
-/// Grows the band by whole polygons, round by round, so that it stays an annulus, or a disk round an open curve.
+/// Grows the band by whole polygons, round by round, so that it stays an annulus, or a disk around an open curve.
 ///
 /// A polygon enters when it meets the band in one connected chain of edges and its other vertices are outside (spike and merge,
 /// 4.2.1, are the triangle's two cases), in the order of its round and then of its distance from the contour. The chain lies on one
-/// side of the contour; last of all, polygons whose chains run round an end of an open curve, or on from there, close the disk.
+/// side of the contour; last of all, polygons whose chains run around an end of an open curve, or on from there, close the disk.
 Band grow_band(const Surface& surface, const Patch& patch, const Options& options, const Constraints& constraints = {},
                const Exclusion& exclusion = {}, const Beat& beat = {});
 

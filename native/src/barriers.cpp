@@ -36,7 +36,7 @@ double place_in_fan(const Surface& surface, const std::vector<int>& fan, const S
     return -1.0;
 }
 
-/// A contour crosses the barriers where, from a point or a run of points along them, some go off to its left and some to its right.
+/// A contour crosses the barriers where, at a point or along a run of points on them, some leave to its left and some to its right.
 class BarrierCheck {
   public:
     BarrierCheck(const Surface& surface, const Contour& contour, const Constraints& constraints)
@@ -76,14 +76,14 @@ class BarrierCheck {
     }
     bool is_barrier(int a, int b) const { return barriers_.contains({std::min(a, b), std::max(a, b)}); }
 
-    /// True where the segment behind point i lies on a barrier.
+    /// True where the segment after point i lies on a barrier.
     bool along(int i) const {
         const SurfacePoint* next = neighbor(contour_, i, 1);
         const auto edge = next ? shared_edge(contour_.points[i], *next) : std::nullopt;
         return edge && is_barrier(edge->a, edge->b);
     }
 
-    /// Where a closed contour's runs do not go on from its last point to its first.
+    /// The first point of a run, so that no run of a closed contour is split between its last point and its first.
     int first_of_a_run() const {
         const int count = static_cast<int>(contour_.points.size());
         for (int i = 0; contour_.closed && i < count; ++i) {
@@ -100,7 +100,7 @@ class BarrierCheck {
         return is_barrier(here.a, here.b) ? sides_inside_edge(here, *last, *next) : Sides();
     }
 
-    /// Turning left from the way on, one meets what is on the left, then the way back, then what is on the right.
+    /// Counterclockwise from the next point lie the barriers on the left, then the last point, then the barriers on the right.
     Sides sides_at_vertex(int vertex, const SurfacePoint& last, const SurfacePoint& next) const {
         const std::vector<int> fan = fan_of(surface_, vertex);
         const double from = place_in_fan(surface_, fan, next), until = place_in_fan(surface_, fan, last);
@@ -113,13 +113,13 @@ class BarrierCheck {
         return sides;
     }
 
-    /// At a point inside a barrier its two halves go off, but for those that the contour runs along.
+    /// At a point inside a barrier its two halves leave, except those that the contour runs along.
     Sides sides_inside_edge(const SurfacePoint& here, const SurfacePoint& last, const SurfacePoint& next) const {
         const DirectedEdge edge{here.a, here.b};
         const auto ahead = [&](const SurfacePoint& p) { return edge.holds(p) && edge.parameter(p) > here.t; };
         const auto behind = [&](const SurfacePoint& p) { return edge.holds(p) && edge.parameter(p) < here.t; };
         Sides sides;
-        for (const bool half : {true, false}) {  // the one towards b, and that towards a
+        for (const bool half : {true, false}) {  // towards b, towards a
             if (half ? ahead(last) || ahead(next) : behind(last) || behind(next)) continue;
             on_left(here, last, next, half) ? sides.left = true : sides.right = true;
         }

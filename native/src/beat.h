@@ -6,7 +6,7 @@
 
 namespace mrc {
 
-/// Called often by a long stage; what it throws ends the stage.
+/// A heartbeat: called often by a long stage, which ends when it throws. That is how a caller cancels.
 using Beat = std::function<void()>;
 
 /// For the steps of a loop, of which each is short.

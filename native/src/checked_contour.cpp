@@ -46,7 +46,7 @@ void check_point(const Surface& surface, const SurfacePoint& p) {
     if (!p.is_vertex() && surface.find_edge(p.a, p.b, EdgeKind::any) < 0) throw no_edge(p.a, p.b);
 }
 
-/// The order of points on edges, whichever way these are written.
+/// Equal for equal points, in whichever direction their edges are written.
 std::tuple<int, int, long long> place_key(const SurfacePoint& p) {
     return p.a <= p.b ? std::tuple(p.a, p.b, std::llround(p.t * 1e12)) : std::tuple(p.b, p.a, std::llround((1.0 - p.t) * 1e12));
 }

@@ -28,24 +28,24 @@ namespace mrc {
 namespace {
 
 // Measured on quarters of part boundaries that people and segmentations drew; twice or half of each changes little.
-constexpr double near_weight = 1.0;     // what a way beside the chain costs more than one far from it
-constexpr double facing_weight = 2.0;   // what a way on the chain's side of the limb costs more than one on the other side
-constexpr double along_weight = 3.0;    // what a step along the limb costs more than one round it, squared
-constexpr double feature_weight = 0.8;  // what a way along the deepest crease costs less than one on a ridge
-constexpr double seam_weight = 5.0;     // in lengths of the chain: passing the chain's middle just beside it
+constexpr double near_weight = 1.0;     // how much more a path costs beside the chain than far from it
+constexpr double facing_weight = 2.0;   // how much more it costs on the chain's side of the limb than on the other
+constexpr double along_weight = 3.0;    // how much more a step along the limb costs than one around it, squared
+constexpr double feature_weight = 0.8;  // how much less a path costs along the deepest crease than on a ridge
+constexpr double seam_weight = 5.0;     // cost of passing the chain's middle just beside it, in lengths of the chain
 constexpr double facing_cosine = 0.2;   // nothing passes the chain's middle where the surface faces as the chain does
 
-/// What a chain says about the limb that it lies on.
+/// What a chain tells of the limb that it lies on.
 struct Limb {
-    double length = 0.0;        ///< of the chain
-    std::vector<double> share;  ///< of the length, at each vertex
-    Vec3 normal;                ///< the way that the chain's middle faces
-    Vec3 axis;                  ///< the way that the limb goes
+    double length = 0.0;           ///< of the chain
+    std::vector<double> fraction;  ///< of the length, at each vertex
+    Vec3 normal;                   ///< mean normal, mostly of the chain's middle
+    Vec3 axis;                     ///< the direction in which the limb extends
 };
 
 Eigen::Matrix3d normalized_trace(const Eigen::Matrix3d& m) { return m.trace() > 0.0 ? Eigen::Matrix3d(m / m.trace()) : m; }
 
-/// The direction that is most nearly square to both the chain's extent and its normals.
+/// The direction most nearly perpendicular to both the chain's extent and its normals.
 Vec3 limb_axis(const Surface& surface, const std::vector<int>& chain, const std::vector<double>& weights) {
     Vec3 center = Vec3::Zero();
     double total = 0.0;
@@ -64,22 +64,22 @@ Vec3 limb_axis(const Surface& surface, const std::vector<int>& chain, const std:
     return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum).eigenvectors().col(0);
 }
 
-/// The mean normal counts the chain's middle most: that of a whole ring would vanish.
+/// The mean normal weights the chain's middle most: that of a whole ring would vanish.
 Limb limb_at(const Surface& surface, const std::vector<int>& chain) {
-    Limb limb{.share = {0.0}, .normal = Vec3::Zero(), .axis = Vec3::Zero()};
+    Limb limb{.fraction = {0.0}, .normal = Vec3::Zero(), .axis = Vec3::Zero()};
     std::vector<double> weights(chain.size(), 0.0);
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
         const double step = (surface.position(chain[i + 1]) - surface.position(chain[i])).norm();
         weights[i] += 0.5 * step;
         weights[i + 1] += 0.5 * step;
-        limb.share.push_back(limb.length += step);
+        limb.fraction.push_back(limb.length += step);
     }
     if (limb.length <= 0.0)
         throw InvalidInput(ErrorCode::no_length, "the chain to be closed has no length: all its vertices lie at one point");
-    for (double& share : limb.share) share /= limb.length;
+    for (double& fraction : limb.fraction) fraction /= limb.length;
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-        const double step = limb.share[i + 1] - limb.share[i];
-        const double window = std::sin(std::numbers::pi * 0.5 * (limb.share[i] + limb.share[i + 1]));
+        const double step = limb.fraction[i + 1] - limb.fraction[i];
+        const double window = std::sin(std::numbers::pi * 0.5 * (limb.fraction[i] + limb.fraction[i + 1]));
         limb.normal += step * window * (vertex_normal(surface, chain[i]) + vertex_normal(surface, chain[i + 1]));
     }
     limb.normal.normalize();  // zero stays zero
@@ -87,7 +87,7 @@ Limb limb_at(const Surface& surface, const std::vector<int>& chain) {
     return limb;
 }
 
-/// Smoothing would take most of the time and finds no more limbs.
+/// Smoothing would take most of the time without finding more limbs.
 Options unsmoothed() {
     Options options;
     options.curvature_smoothing = 0.0;
@@ -134,7 +134,9 @@ class ClosingSearch {
         double cost = std::numeric_limits<double>::infinity();
         int previous = -1;
         bool settled = false;
-        double facing, weight, share;  // of the vertex: cosine to the chain's normal, cost of a length, nearest share of the chain
+        double facing;    // cosine between the vertex normal and the chain's
+        double weight;    // cost per unit of length
+        double fraction;  // of the chain, at its point nearest to the vertex
     };
     using Entry = std::pair<double, int>;
     const Surface& surface_;
@@ -149,7 +151,8 @@ class ClosingSearch {
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 
     /// After Lee et al.: a distance function times a normal function, each 1 far away and on the limb's other side, times a feature
-    /// function, which falls from 1 where nothing is concave to 0.2. Its unit is half the chain's length, so that scale is no matter.
+    /// function, which falls from 1 where nothing is concave to 0.2. Its unit is half the chain's length, so that scale does not
+    /// matter.
     Place make_place(int vertex) const {
         Place place;
         const VertexCurvature& curvature = curvature_.at(vertex);
@@ -158,7 +161,7 @@ class ClosingSearch {
         const double near = std::exp(-2.0 * from_chain_.at(vertex) / limb_.length);
         place.weight = (1.0 + near_weight * near) * (1.0 + facing_weight * std::max(0.0, place.facing)) *
                        (1.0 - feature_weight * depth / (1.0 + depth));
-        place.share = limb_.share[from_chain_.nearest(vertex)];
+        place.fraction = limb_.fraction[from_chain_.nearest(vertex)];
         return place;
     }
 
@@ -177,9 +180,9 @@ class ClosingSearch {
         const Vec3 step = surface_.position(b) - surface_.position(a);
         const double along = step.dot(limb_.axis);
         const double cost = std::sqrt(step.squaredNorm() + along_weight * along * along) * 0.5 * (p.weight + q.weight);
-        if ((p.share < 0.5) == (q.share < 0.5)) return cost;
+        if ((p.fraction < 0.5) == (q.fraction < 0.5)) return cost;
         if (p.facing + q.facing > 2.0 * facing_cosine) return std::numeric_limits<double>::infinity();
-        return cost + seam_weight * limb_.length * (1.0 - std::abs(p.share - q.share));
+        return cost + seam_weight * limb_.length * (1.0 - std::abs(p.fraction - q.fraction));
     }
 
     bool is_on_chain(int a, int b) const { return chain_.size() == 2 && b == chain_.front() && a == chain_.back(); }
@@ -225,7 +228,7 @@ std::vector<int> chain_vertices(const Contour& chain) {
 Contour close_contour(const Surface& surface, const Contour& chain, const Progress& progress) {
     if (chain.closed) throw InvalidInput(ErrorCode::not_open, "the contour to be closed is closed already: give an open chain");
     std::vector<int> vertices = chain_vertices(checked_contour(surface, chain));
-    // Searched from the same end whichever way the chain is given, so that equal paths are decided alike.
+    // Always searched from the same end, so that ties between paths of equal cost do not depend on the chain's direction.
     const bool turned = vertices.front() > vertices.back();
     if (turned) std::ranges::reverse(vertices);
     ProgressMonitor monitor(progress);

@@ -11,7 +11,7 @@ struct Sums {
     Vec3 centroid = Vec3::Zero();
 };
 
-/// Numbers the vertices by component, a component being what faces hold together.
+/// Numbers the connected components of the vertices and returns how many there are.
 int label(const Surface& surface, std::vector<int>& component) {
     component.assign(surface.vertex_count(), -1);
     int count = 0;

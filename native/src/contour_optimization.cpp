@@ -85,7 +85,7 @@ ContourOptimization::ContourOptimization(const Surface& surface, const Contour& 
 
 void ContourOptimization::begin_phase(int steiner) {
     steiner_ = steiner;
-    // On the whole surface, what is refined works in a band around the regular result.
+    // Without a width, the regular phase searches the whole surface, and the refined one a band around its result.
     if (steiner > 0 && !options_.width) phase_options_.width = Options().width;
     current_ = measure(surface_, context_->energy, result_.contour, steiner, enclosed_);
     result_.ratio = current_.ratio;
@@ -169,7 +169,7 @@ Result ContourOptimization::finish() {
                              (result_.reason.empty() ? "no iteration was asked for" : result_.reason),
                          elements_required_by(constraints_));
     if (searched_ && featureless()) explain_featureless();
-    // What was won along mesh edges may be lost with the Steiner points of a last phase that found nothing.
+    // An improvement along mesh edges may be none with the Steiner points of a last phase that found nothing.
     const bool lost = result_.status == Status::improved && !below(result_.objective, result_.initial_objective);
     if (result_.status == Status::improved && (lost || (searched_ && featureless()))) keep_given();
     if (lost) because(Reason::none_refined, "no better contour was found across faces");
@@ -204,7 +204,7 @@ bool ContourOptimization::below(double a, double b) const {
     return std::isinf(b) ? a < b : a < b - 1e-12 * std::max({unit, std::abs(a), std::abs(b)});
 }
 
-/// The search begins at what the current contour suggests.
+/// The current contour gives the solver its first lambda.
 RatioOptions ContourOptimization::search_options(const Beat& beat) const {
     RatioOptions options;
     options.beat = beat;
@@ -233,7 +233,7 @@ void ContourOptimization::accept(const Contour& found, const std::optional<EdgeF
     enclosed_ = enclosed;
 }
 
-/// Nothing concave was found to go to (min_salience).
+/// True where the best contour is not concave enough to move to (min_salience).
 bool ContourOptimization::featureless() const {
     return result_.salience < options_.min_salience.value_or(-std::numeric_limits<double>::infinity());
 }
@@ -250,7 +250,7 @@ void ContourOptimization::because(Reason code, std::string words) {
     result_.reason = std::move(words);
 }
 
-/// Puts the given contour back. The certificate stays that of the best found, where the given contour is not better still.
+/// Returns to the given contour. The certificate stays that of the best found, unless the given contour is even better.
 void ContourOptimization::keep_given() {
     result_.contour = given_;
     result_.status = Status::unchanged;

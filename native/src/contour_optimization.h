@@ -46,8 +46,8 @@ class Stopwatch {
     std::map<std::string, double>& seconds_;
 };
 
-/// One contour on its way, in the steps that several contours of a mesh take together:
-/// for each phase begin_phase, then for each iteration cut_out, grow and search; last finish.
+/// The optimization of one contour, in steps that several contours of a mesh take together: for each phase begin_phase, then for
+/// each iteration cut_out, grow and search; finally finish.
 class ContourOptimization {
   public:
     /// `contour` must be checked; surface, options and constraints must outlive the object.
@@ -56,7 +56,7 @@ class ContourOptimization {
 
     /// Iterations with one k, measured with its Steiner points: a segment of the history.
     void begin_phase(int steiner);
-    /// Makes the patch of an iteration.
+    /// Begins an iteration by making its patch.
     void cut_out(const Beat& beat = {});
     void grow(Partition* partition, int number, const Beat& beat = {});
     /// Finds the best contour of the band and takes it where it is better than the one so far.
@@ -71,7 +71,7 @@ class ContourOptimization {
     bool moving() const { return moving_; }
     /// The last iteration moved it.
     bool moved() const { return moved_; }
-    /// Where it settled, it sets off again once a neighbor that kept it back has moved.
+    /// Searches again, since a neighbor that kept it back has moved.
     void wake() { moving_ = !featureless(); }
     const Contour& given() const { return given_; }
     const Contour& current() const { return result_.contour; }
@@ -82,7 +82,7 @@ class ContourOptimization {
   private:
     const Surface& surface_;
     const Options& options_;
-    Options phase_options_;  // with the width of the phase under way
+    Options phase_options_;  // with the width of the current phase
     const Constraints& constraints_;
     const Contour given_;
     Result result_;
@@ -90,12 +90,12 @@ class ContourOptimization {
     bool feasible_;  // the contour reached so far has all required elements
     std::unique_ptr<SearchContext> context_;
     Measure current_;  // of the contour reached so far
-    int steiner_ = 0;  // k of the iterations under way
+    int steiner_ = 0;  // k of the current phase
     bool moving_ = false, moved_ = false;
     double best_found_ = 0.0;     // the least objective that this phase found, or began with where that was found before
     bool searched_ = false;       // some iteration found a contour
     double enclosed_ = 0.0;       // the change of the region term's integral so far
-    std::optional<Patch> patch_;  // of the iteration under way
+    std::optional<Patch> patch_;  // of the current iteration
     Band band_;
     Exclusion exclusion_;
 

@@ -12,7 +12,7 @@
 namespace mrc {
 namespace {
 
-constexpr int rings = 4;
+constexpr int near_rings = 4;
 
 std::vector<int> contour_ends(const Contour& contour) {
     std::vector<int> vertices;
@@ -40,7 +40,7 @@ double contour_length(const Surface& surface, const Contour& contour) {
 }
 
 double mean_edge_length(const Surface& surface, const Contour& contour) {
-    const std::vector<int> near = vertices_within(surface, contour_ends(contour), rings);
+    const std::vector<int> near = vertices_within(surface, contour_ends(contour), near_rings);
     const std::unordered_set<int> inside(near.begin(), near.end());
     std::vector<std::pair<int, double>> lengths;  // by edge, so that each counts once
     for (const int v : near) {
@@ -61,7 +61,7 @@ Scales contour_scales(const Surface& surface, const CurvatureField& field, doubl
                       const Beat& beat) {
     double weighted = 0.0, area = 0.0;
     std::vector<double> features;
-    const std::vector<int> near = vertices_within(surface, contour_ends(contour), rings);
+    const std::vector<int> near = vertices_within(surface, contour_ends(contour), near_rings);
     field.prepare(near, beat);
     for (const int v : near) {
         const double weight = vertex_area(surface, v), kappa = feature_curvature(field.at(v), options.feature);

@@ -71,7 +71,7 @@ Vec3 vertex_normal(const Surface& surface, int vertex) {
 
 namespace {
 
-/// The real edges round the vertices met so far, numbered as they are met.
+/// The real edges around the vertices met so far, numbered as they are met.
 class NearGraph {
   public:
     struct Link {
@@ -92,7 +92,7 @@ class NearGraph {
     int vertex(int number) const { return vertices_[number]; }
     int size() const { return static_cast<int>(vertices_.size()); }
 
-    /// Reads the edges round a vertex; until then it has no links.
+    /// Reads the edges around a vertex; until then it has no links.
     void expand(int n) {
         if (first_link_[n] >= 0) return;
         const int begin = static_cast<int>(links_.size());
@@ -118,7 +118,8 @@ class NearGraph {
 class NearSearch {
   public:
     /// The vertices within `limit` of the start, which is nearest to itself. The distances are corrected until none falls any more,
-    /// which over so few edges of like lengths takes less time than a heap. `expand` is called for a vertex before its links are read.
+    /// which over so few edges of like lengths takes less time than a heap. `expand` is called for a vertex before its links are
+    /// read.
     template <class Expand>
     std::span<const int> run(const NearGraph& graph, std::span<const int> starts, double limit, Expand&& expand) {
         ++search_;
@@ -239,11 +240,11 @@ class CurvatureField::Impl {
             tensors_[missing[i]] = disks_.at(near_.vertex(missing[i]));
             has_tensor_[missing[i]] = 1;
         }
-        // What the disks share of so many vertices takes more room from now on than it saves time.
+        // What the disks of so many vertices have cached takes more memory than it would save time from now on.
         if (missing.size() > many) disks_ = DiskTensors(surface_, radius_);
     }
 
-    /// The tensors round a vertex, averaged term by term (Alliez et al. 2003).
+    /// The tensors around a vertex, averaged term by term (Alliez et al. 2003).
     Symmetric smoothed(int n) {
         if (sigma_ == 0.0) return tensors_[n];
         Symmetric sum = Symmetric::Zero();

@@ -12,10 +12,10 @@
 
 namespace mrc {
 
-/// The curvature tensor of the surface (3.4), evaluated where it is asked for and remembered.
+/// The curvature tensor of the surface (3.4), evaluated on demand and cached.
 ///
-/// It depends on the surface and on h alone. Eq. 3.4 is averaged over the part of a ball of radius `curvature_radius` h that hangs
-/// together with the vertex along the surface, then smoothed with a Gaussian of sigma `curvature_smoothing` h in the distance
+/// It depends on the surface and on h alone. Eq. 3.4 is averaged over the part of a ball of radius `curvature_radius` h that is
+/// connected to the vertex along the surface, then smoothed with a Gaussian of sigma `curvature_smoothing` h in the distance
 /// along the surface. Hidden faces count. The surface must outlive the field.
 class CurvatureField {
   public:
@@ -48,7 +48,7 @@ Vec3 polygon_area_vector(const Surface& surface, int face);
 /// Polygon normals weighted by corner angle, unit; the z axis where they cancel.
 Vec3 vertex_normal(const Surface& surface, int vertex);
 
-/// Equal shares of the areas of the polygons at a vertex.
+/// Of each polygon of n vertices at a vertex, 1 / n of the area.
 double vertex_area(const Surface& surface, int vertex);
 
 }  // namespace mrc

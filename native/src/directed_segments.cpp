@@ -32,7 +32,7 @@ std::vector<DirectedSegment> direct_segments(const Surface& surface, const Ambie
             direct_level_segment(surface, points, s, i, directed);
             continue;
         }
-        if (closed && std::abs(increment) >= 1.0) continue;  // no closed contour holds a chord that goes all the way round
+        if (closed && std::abs(increment) >= 1.0) continue;  // no closed contour holds a chord that goes all around the band
         const int tail = increment > 0.0 ? s.a : s.b, head = increment > 0.0 ? s.b : s.a;
         directed.push_back({tail, head, std::abs(increment), i, crossings != 0, Climb::along});
     }

@@ -68,21 +68,21 @@ void DiskTensors::meet(int number) {
     disk_.push_back(number);
 }
 
-/// Cuts the edge with the ball, and adds what it bends inside when it is met for the first time. False where it stays outside.
+/// Intersects the edge with the ball. The first time in a disk, it adds the bending of the part inside. False where none is.
 bool DiskTensors::cut(int edge, const Vec3& center, Symmetric& sum) {
     Span& span = spans_[edge];
     if (span.disk == disk_count_) return span.leave > span.enter;
     const Edge& e = edges_[edge];
     span = {disk_count_, 0.0, 0.0};
     const Vec3 start = e.start - center;
-    const double along = start.dot(e.way), start2 = start.squaredNorm(), radius2 = radius_ * radius_;
-    if (start2 <= radius2 && start2 + 2.0 * along + e.length2 <= radius2 && e.length2 > 0.0) {  // most edges lie inside altogether
+    const double along = start.dot(e.vector), start2 = start.squaredNorm(), radius2 = radius_ * radius_;
+    if (start2 <= radius2 && start2 + 2.0 * along + e.length2 <= radius2 && e.length2 > 0.0) {  // most edges lie wholly inside
         span.leave = 1.0;
         sum += e.bending;
         return true;
     }
     const double middle = -along * e.inverse_length2;
-    const double half2 = (radius2 - (start + middle * e.way).squaredNorm()) * e.inverse_length2;
+    const double half2 = (radius2 - (start + middle * e.vector).squaredNorm()) * e.inverse_length2;
     if (half2 <= 0.0) return false;
     const double half = std::sqrt(half2);
     span.enter = std::clamp(middle - half, 0.0, 1.0);
@@ -93,7 +93,7 @@ bool DiskTensors::cut(int edge, const Vec3& center, Symmetric& sum) {
 }
 
 /// The area of the triangle inside the ball: straight pieces of its sides, and arcs of the circle in its plane that join them, all
-/// turning left round the area.
+/// turning left around the area.
 double DiskTensors::area_inside(const Triangle& t, const Vec3& center) const {
     if (t.doubled_area == 0.0) return 0.0;
     const Vec3 away = center - t.origin;
@@ -113,13 +113,13 @@ double DiskTensors::area_inside(const Triangle& t, const Vec3& center) const {
     double doubled = 0.0;
     bool foot_inside = true;
     for (int side = 0; side < 3; ++side) {
-        const Vec2 &a = corners[side], way = corners[(side + 1) % 3] - a;
-        foot_inside &= cross(a, way) >= 0.0;
+        const Vec2 &a = corners[side], vector = corners[(side + 1) % 3] - a;
+        foot_inside &= cross(a, vector) >= 0.0;
         const Span& span = spans_[t.edges[side]];
         if (span.leave <= span.enter) continue;
         const double enter = t.forward[side] ? span.enter : 1.0 - span.leave,
                      leave = t.forward[side] ? span.leave : 1.0 - span.enter;
-        pieces[count] = {a + enter * way, a + leave * way, enter == 0.0, leave == 1.0};
+        pieces[count] = {a + enter * vector, a + leave * vector, enter == 0.0, leave == 1.0};
         doubled += cross(pieces[count].from, pieces[count].to);
         ++count;
     }
@@ -176,16 +176,16 @@ int DiskTensors::neighbor(int number, int side) {
 int DiskTensors::edge_number(int halfedge) {
     const int number = edge_numbers_.insert(surface_->edge(halfedge));
     if (number < static_cast<int>(edges_.size())) return number;
-    // Always the same direction, whoever asks first: so the same vertex has the same curvature to the last bit.
+    // The same direction whatever half-edge is asked for, so that a vertex always has the same curvature to the last bit.
     const int from = surface_->from(halfedge), to = surface_->to(halfedge);
-    const Vec3 start = surface_->position(std::min(from, to)), way = surface_->position(std::max(from, to)) - start;
-    const double length2 = way.squaredNorm(), length = std::sqrt(length2);
-    edges_.push_back({start, way, length2, length2 > 0.0 ? 1.0 / length2 : 0.0, 0.0, Symmetric::Zero()});
+    const Vec3 start = surface_->position(std::min(from, to)), vector = surface_->position(std::max(from, to)) - start;
+    const double length2 = vector.squaredNorm(), length = std::sqrt(length2);
+    edges_.push_back({start, vector, length2, length2 > 0.0 ? 1.0 / length2 : 0.0, 0.0, Symmetric::Zero()});
     spans_.emplace_back();
     const int twin = surface_->twin(halfedge);
     const double angle = angle_at(twin >= 0 ? std::min(halfedge, twin) : halfedge);
     if (length > 0.0) {
-        const Vec3 e = way / length;
+        const Vec3 e = vector / length;
         const double weight = angle * length;
         edges_[number].bending << weight * e.x() * e.x(), weight * e.y() * e.y(), weight * e.z() * e.z(), weight * e.x() * e.y(),
             weight * e.x() * e.z(), weight * e.y() * e.z();

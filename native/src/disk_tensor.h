@@ -24,13 +24,13 @@ inline Eigen::Matrix3d full(const Symmetric& s) {
 
 /// The curvature tensor of eq. 3.4 at single vertices: F = 1 / |B| sum beta(e) |e in B| e e^T, with B the disk about the vertex.
 ///
-/// The disk is what hangs together with the vertex along the surface inside a ball, so that the other side of a thin plate stays
-/// out. What belongs to an edge or to a triangle alone is kept, since the disks of neighbors overlap.
+/// The disk is the part of a ball that is connected to the vertex along the surface, so that the other side of a thin plate stays
+/// out. What depends on an edge or a triangle alone is kept, since the disks of neighbors overlap.
 class DiskTensors {
   public:
     DiskTensors(const Surface& surface, double radius) : surface_(&surface), radius_(radius) {}
 
-    /// Room for what the disks of so many vertices need in most meshes.
+    /// Reserves what the disks of so many vertices need in most meshes.
     void reserve(int vertices);
     Symmetric at(int vertex);
     /// The signed angle between the normals at a half-edge's edge, in radians, negative where concave; 0 at borders.
@@ -38,7 +38,7 @@ class DiskTensors {
 
   private:
     struct Edge {
-        Vec3 start, way;
+        Vec3 start, vector;               // from its start to its end
         double length2, inverse_length2;  // 0 where it has no length
         double angle;
         Symmetric bending;  // angle times length times e e^T
@@ -51,7 +51,7 @@ class DiskTensors {
         std::array<int, 3> edges, neighbors;  // numbers; a neighbor not yet met is `unknown`
         std::array<bool, 3> forward;          // whether the side runs along with its edge
     };
-    /// The part of an edge inside the ball under way, as shares of its way; empty where enter = leave.
+    /// The part of an edge inside the current ball, as fractions of the edge; empty where enter = leave.
     struct Span {
         int disk = 0;
         double enter = 0.0, leave = 0.0;
@@ -65,7 +65,7 @@ class DiskTensors {
     std::vector<Span> spans_;  // of edges_
     std::vector<Triangle> triangles_;
     std::vector<int> met_;   // of triangles_: the last disk that it was met in
-    std::vector<int> disk_;  // the triangles of the disk under way
+    std::vector<int> disk_;  // the triangles of the current disk
     int disk_count_ = 0;
 
     int edge_number(int halfedge);

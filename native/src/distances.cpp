@@ -14,11 +14,11 @@ DistanceField::DistanceField(const Surface& surface, const Contour& contour) : s
     }
 }
 
-void DistanceField::reach(int vertex, Way way) const {
-    const auto [entry, fresh] = best_.emplace(vertex, way);
-    if (!fresh && way.length >= entry->second.length) return;
-    entry->second = way;
-    queue_.emplace(way.length, vertex);
+void DistanceField::reach(int vertex, Path path) const {
+    const auto [entry, fresh] = best_.emplace(vertex, path);
+    if (!fresh && path.length >= entry->second.length) return;
+    entry->second = path;
+    queue_.emplace(path.length, vertex);
 }
 
 bool DistanceField::settle_next() const {

@@ -12,8 +12,8 @@
 
 namespace mrc {
 
-/// Distances along the surface from a contour, found as far out as they are asked for: shortest paths over real edges, diagonals
-/// unseen. Where the contour crosses an edge it starts them at the edge's ends, with the way along the edge.
+/// Distances along the surface from a contour, computed only as far out as they are asked for: shortest paths over real edges,
+/// without diagonals. Where the contour crosses an edge it starts them at the edge's ends, with the distance along the edge.
 class DistanceField {
   public:
     /// The surface must outlive the field.
@@ -21,9 +21,9 @@ class DistanceField {
 
     /// Infinity where no edges lead there.
     double at(int vertex) const;
-    /// Whether it is at most so far; looks no farther.
+    /// True where the distance is at most this; the search goes no farther.
     bool reaches(int vertex, double distance) const;
-    /// The place in the contour of the point from which the shortest path leads there, or -1 where no edges lead there.
+    /// The index of the contour's point where the shortest path starts, or -1 where no edges lead there.
     int nearest(int vertex) const;
     /// Linear inside an edge.
     double at(const SurfacePoint& point) const {
@@ -32,16 +32,16 @@ class DistanceField {
 
   private:
     using Entry = std::pair<double, int>;
-    struct Way {
+    struct Path {
         double length;
         int point;  // where it starts
     };
     const Surface& surface_;
-    mutable std::unordered_map<int, Way> best_;
+    mutable std::unordered_map<int, Path> best_;
     mutable std::unordered_set<int> settled_;
     mutable std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 
-    void reach(int vertex, Way way) const;
+    void reach(int vertex, Path path) const;
     bool settle_next() const;
     bool settle(int vertex) const;
 };

@@ -26,7 +26,7 @@ Planar projector(const VertexCurvature& c, Feature feature, const Eigen::Matrix<
     return c.umbilic ? Planar(0.5 * (Planar(1.0, 0.0, 1.0) - square)) : square;
 }
 
-/// The unit eigenvector of the larger eigenvalue. Of the two ways to write it the one without cancellation is taken.
+/// The unit eigenvector of the larger eigenvalue. Of its two formulas the one without cancellation is used.
 Eigen::Vector2d main_axis(const Planar& m) {
     const double half = 0.5 * (m[0] - m[2]), size = std::sqrt(half * half + m[1] * m[1]);
     const Eigen::Vector2d axis = half > 0.0 ? Eigen::Vector2d(half + size, m[1]) : Eigen::Vector2d(m[1], size - half);

@@ -16,14 +16,14 @@ namespace mrc {
 
 class Attraction;
 
-/// What eq. 3.2 needs to know at a point of the surface.
+/// What eq. 3.2 needs at a point of the surface.
 struct Frame {
     Vec3 normal = Vec3::UnitZ();
     Vec3 direction = Vec3::UnitX();  ///< unit, tangent: the direction that contours follow
     Vec3 across = Vec3::UnitY();     ///< normal x direction
     double kappa = 0.0;              ///< feature curvature, negative in a valley (ridge: -kappa_max), exponent applied
     bool umbilic = true;             ///< no direction: the term is pure bending
-    double potential = 0.0;          ///< what passing here costs for each unit of length, besides eq. 3.2
+    double potential = 0.0;          ///< added cost per unit of length, besides eq. 3.2
 };
 
 /// One end of a chord, seen in the tangent plane of the point at that end: what an arc there needs of the chord alone.
@@ -32,7 +32,7 @@ struct ChordEnd {
     double projected = 0.0;                             ///< its length
     double length = 0.0;                                ///< of the chord in space
     double along = 0.0;                                 ///< length times cosine to the frame's direction, exponent applied
-    double cost = 0.0;                                  ///< half of what the potential and the crease make of the length
+    double cost = 0.0;                                  ///< half the length times potential and crease
 };
 
 /// The cosine of eq. 3.2 between a chord and direction p, with exponent b; 0 for a chord that points along the normal.
@@ -87,7 +87,7 @@ class Energy {
     /// kappa interpolates linearly along an edge, the direction through its projector p p^T (eq. 3.5), which needs no sign.
     Frame frame(const SurfacePoint& point) const;
 
-    /// `crease`: what the chord's edge costs for each unit of length.
+    /// `crease`: cost of the chord's edge per unit of length.
     ChordEnd chord_end(const Frame& frame, const Vec3& chord, double crease = 0.0) const {
         ChordEnd end{{chord.dot(frame.direction), chord.dot(frame.across)}};
         end.projected = end.tangent.norm();
@@ -97,10 +97,10 @@ class Energy {
         return end;
     }
 
-    /// What a chord along a mesh edge costs for each unit of length: crease K min(3, exp(3 sin beta)), beta its signed dihedral;
+    /// Cost of a chord along a mesh edge per unit of length: crease K min(3, exp(3 sin beta)), beta its signed dihedral;
     /// of one off the mesh's edges (-1), crease K.
     double crease_cost(int halfedge) const;
-    /// The same of a chord off the mesh's edges.
+    /// The same for a chord off the mesh's edges.
     double plain_crease_cost() const { return options_.crease * scales_.K; }
 
     ArcWeights weights(const Frame& frame) const {
@@ -108,7 +108,7 @@ class Energy {
                 least_cosine_, frame.umbilic,   options_.denominator == Denominator::arcs};
     }
 
-    /// What a unit of enclosed density on the contour's left adds to the numerator: region_weight K / L0, signed by the side.
+    /// What a unit of density enclosed on the contour's left adds to the numerator: region_weight K / L0, signed by the side.
     double region_factor() const;
     /// K, the unit of ratios; with the factor L0 / n0 where arcs are counted.
     double unit() const;

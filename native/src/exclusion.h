@@ -7,13 +7,13 @@
 
 namespace mrc {
 
-/// What the other contours of a mesh leave to one of them (1.4), by the numbers of its patch. Empty where it is alone.
+/// What the other contours of a mesh close to one of them (1.4), by the numbers of its patch. Empty where it is alone.
 struct Exclusion {
-    std::vector<char> refused;        ///< of each local polygon: no part of the band
+    std::vector<char> refused;        ///< of each local polygon: it may not enter the band
     std::vector<char> wall;           ///< of each edge: another contour runs along it or crosses it; no band grows across
     std::vector<char> closed_vertex;  ///< of each vertex: shared with another's band or contour, no chord touches it
-    std::vector<char> closed_edge;    ///< of each edge: so are its Steiner points
-    std::vector<Contour> own;  ///< the contour as first given and as it lies, with the graph's points: open to it all the same
+    std::vector<char> closed_edge;    ///< of each edge: the same for its Steiner points
+    std::vector<Contour> own;  ///< the contour as first given and as it lies, with the graph's points: open to it nevertheless
 };
 
 }  // namespace mrc

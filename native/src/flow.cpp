@@ -10,8 +10,8 @@
 namespace mrc {
 namespace {
 
-/// The half-edges through which a shortest chain of faces leaves the band, starting at the face of half-edge `first` and keeping
-/// off the contour. Empty where `first` itself is on the band's border.
+/// The half-edges that a shortest chain of faces crosses on its path out of the band, from the face of half-edge `first` and
+/// without crossing the contour. Empty where `first` itself is on the band's border.
 std::vector<int> path_out(const Patch& patch, const Band& band, int first) {
     const PatchMesh& mesh = patch.mesh;
     const auto face_of = [&](int h) {
@@ -63,8 +63,8 @@ std::vector<int> crossing_form(const Patch& patch, const Band& band) {
     return jump;
 }
 
-/// Fixed values: closed, 0 at the contour's first vertex; open, 0 at the first and 1 at the last, and for free ends on the border all
-/// along the pieces of mesh border that hold them.
+/// Fixed values: closed, 0 at the contour's first vertex; open, 0 at the first and 1 at the last, and for free ends on the border
+/// all along the pieces of mesh border that hold them.
 std::vector<double> fixed_values(const Patch& patch, const Band& band, const Options& options) {
     std::vector<double> fixed(patch.vertex.size(), -1.0);
     fixed[patch.contour.front()] = 0.0;

@@ -8,7 +8,7 @@
 namespace mrc {
 
 /// How far along the contour each point of the band lies: an increment on every edge of the band, antisymmetric, with sum zero
-/// round every triangle and total 1 once round the band.
+/// around every triangle and total 1 once around the band.
 ///
 /// It is held as a value for each vertex and a whole number for each half-edge, so that periods are exact.
 struct Flow {
@@ -31,7 +31,7 @@ std::vector<int> border_piece(const Patch& patch, const Band& band, int vertex);
 
 /// The strip boundaries of 4.2.3 from the rightmost to the leftmost: the contour, the boundaries of every round, and the refined
 /// strips between them that cover the vertices left over. Closed lists of patch vertices, or open ones from the first vertex of an
-/// open curve to its last; neighbors may share vertices but never cross. Every vertex of the band lies on one at least, but for
+/// open curve to its last; neighbors may share vertices but never cross. Every vertex of the band lies on at least one, except
 /// those that only the band's end polygons hold.
 std::vector<Curve> strip_boundaries(const Patch& patch, const Band& band);
 

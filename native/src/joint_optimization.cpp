@@ -21,7 +21,7 @@ namespace {
 
 using Edge = std::array<int, 2>;
 
-/// The real edges that a contour runs along, also of one that is no contour.
+/// The real edges that a contour runs along, even if it is not a valid one.
 std::vector<Edge> real_edges_along(const Surface& surface, const Contour& contour) {
     const auto exists = [&](const SurfacePoint& p) {
         return std::min(p.a, p.b) >= 0 && std::max(p.a, p.b) < surface.vertex_count();
@@ -38,8 +38,8 @@ std::vector<Edge> real_edges_along(const Surface& surface, const Contour& contou
 /// What an error of one contour does: it ends the call, or becomes what that contour gets.
 enum class OnError { end, keep };
 
-/// Several contours of one surface on their way together: all take each step before any takes the next, so that what one finds
-/// depends neither on their order nor on the number of threads.
+/// The optimization of several contours of one surface: all take each step before any takes the next, so that the results depend
+/// neither on their order nor on the number of threads.
 class JointOptimization {
   public:
     JointOptimization(const Surface& surface, std::span<const Task> tasks, const Options& options, const Progress& progress,
@@ -80,7 +80,7 @@ class JointOptimization {
     std::vector<Constraints> constraints_;
     std::vector<std::optional<InvalidInput>> errors_;             // of the contours whose errors are kept
     std::vector<std::unique_ptr<ContourOptimization>> contours_;  // null: refused before the first iteration
-    int iteration_ = 0;                                           // the one under way, counted as if none ended early
+    int iteration_ = 0;                                           // the current one, counted as if none ended early
     const Beat beat_ = [this] { monitor_.beat(); };
 
     /// A refined search needs the regular result of the whole surface to begin from.
@@ -200,7 +200,7 @@ class JointOptimization {
         patch.last_end_held = points.back().is_vertex() && partition.shares(i, points.back().a);
     }
 
-    /// A contour that has settled sets off again where one that kept it back has moved, or has failed and left its band.
+    /// A contour that no longer moves is searched again once one that kept it back has moved, or has failed and left its band.
     void wake_neighbors(const std::vector<char>& active) {
         std::vector<char> moved;
         for (int i = 0; i < count(); ++i) moved.push_back(active[i] && (errors_[i] || contours_[i]->moved()));

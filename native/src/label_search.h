@@ -19,7 +19,7 @@ class LabelSearch {
   public:
     LabelSearch(const WeightedGraph& graph, const RatioOptions& options, Incumbent& incumbent, Lens& lens);
 
-    /// Offers the incumbent what is better on the way from any of these sources to any of these destinations. A pair has no potential.
+    /// Offers the incumbent what is better on a path from any of these sources to any of these destinations. A pair has no potential.
     void run(const std::vector<int>& sources, const std::vector<int>& destinations, const std::vector<Pass>& passes);
 
     /// Partial paths met so far.

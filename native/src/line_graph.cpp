@@ -7,7 +7,7 @@
 namespace mrc {
 namespace {
 
-/// A chord that ends in the point under way, with what its arcs share.
+/// A chord that ends in the current point, with what its arcs have in common.
 struct Arrival {
     ChordEnd end;
     double enclosed;  // half of what it adds to the region term
@@ -54,7 +54,7 @@ class Joiner {
     std::vector<Vec3> positions_;  // of the points
     std::vector<Frame> frames_;
     std::vector<int> first_arriving_, arriving_;  // the chords that end in each point, ascending
-    int point_ = -1;                              // the point under way, where arcs are
+    int point_ = -1;                              // the current point, where arcs are
     std::vector<Arrival> arrivals_;
     std::vector<int> from_;  // scratch: the arcs into one chord
     std::vector<double> f_, g_;

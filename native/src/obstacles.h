@@ -8,20 +8,20 @@
 
 namespace mrc {
 
-/// Bands keep to polygons that are shown and whose vertices have one fan each.
+/// Bands keep to visible polygons whose vertices have one fan each.
 bool usable_face(const Surface& surface, int face);
 
-/// What keeps a band or a contour from somewhere.
+/// The reason why no band can grow, or no contour can run, at some place.
 struct Obstacle {
     ErrorCode code;
     std::string words;  ///< where that is: "on the border of the mesh"
     std::optional<Element> element;
 };
 
-/// What keeps a band from growing on the side of this half-edge.
+/// Why no band can grow on the side of this half-edge; nothing where one can.
 std::optional<Obstacle> obstacle(const Surface& surface, int halfedge);
 
-/// What keeps a contour from running along the real edge ab. One side that a band may enter is enough.
+/// Why no contour can run along the real edge ab; nothing where one can: one side that a band may enter is enough.
 std::optional<Obstacle> obstacle(const Surface& surface, int a, int b);
 
 }  // namespace mrc

@@ -12,19 +12,19 @@
 
 namespace mrc {
 
-/// Shares a surface out among contours that move at the same time, so that none can cross or touch another (1.4).
+/// Divides a surface among contours that move at the same time, so that none can cross or touch another (1.4).
 ///
 /// A polygon belongs to the contour that runs through it, or else to the nearest of those whose patches hold it, by the sum of its
 /// vertices' distances; in a tie to none. So two bands have at most vertices and edges in common, and these are closed to both. A
-/// contour's own points, as first given and as it lies now, are open to it and closed to all others: whoever stays or goes back
-/// finds its place free. Nothing here depends on the order of the contours.
+/// contour's own points, as first given and as it lies now, are open to it and closed to all others, so that it can always stay or
+/// go back. Nothing here depends on the order of the contours.
 class Partition {
   public:
     explicit Partition(const Surface& surface) : surface_(surface) {}
 
     /// Where a contour lies; called for the given one and for the current one.
     void occupy(int contour, const Contour& where);
-    /// The polygons that a contour's band might take.
+    /// The polygons that a contour's band might enter.
     void claim(int contour, const Patch& patch);
     /// The other contours that run through the same faces as this one: it cannot move without passing them.
     std::vector<int> entangled_with(int contour, const Contour& where) const;
@@ -36,7 +36,7 @@ class Partition {
     /// `closed_vertex` and `closed_edge`, once all bands are enclosed.
     void close(int contour, const Patch& patch, Exclusion& exclusion) const;
 
-    /// Who keeps the band from growing or the contour from using its vertices, ascending.
+    /// The contours that keep the band from growing or the contour from using its vertices, ascending.
     std::vector<int> held_back_by(int contour, const Patch& patch, const Band& band) const;
     /// True where another contour passes a vertex.
     bool shares(int contour, int vertex) const;

@@ -36,13 +36,14 @@ struct Patch {
     std::vector<int> polygon;       ///< local polygon of each patch face; a polygon's faces are consecutive
     std::vector<int> polygon_face;  ///< surface face of each local polygon
     std::vector<int> first_face;    ///< patch faces of local polygon p: first_face[p] up to first_face[p + 1]
-    std::vector<char> diagonal;     ///< of each patch edge: true where the triangulation alone put it
+    std::vector<char> diagonal;     ///< of each patch edge: true where only the triangulation adds it
     std::vector<char> border_edge;  ///< of each patch edge: true on the border of the mesh, where no contour runs
     std::vector<double> distance;   ///< of each patch vertex: along the surface from the contour as given
     Contour given;                  ///< the contour as given
     std::vector<int> contour;       ///< patch vertices of the contour, or of the nearest simple one along mesh edges, in order
     bool closed = true;
-    bool first_end_held = false, last_end_held = false;  ///< of an open curve: another contour shares the end, so that it stays
+    bool first_end_held = false,
+         last_end_held = false;  ///< of an open curve: another contour shares the end, which therefore stays
 
     int polygon_count() const { return static_cast<int>(polygon_face.size()); }
     bool diagonal_halfedge(int h) const { return diagonal[h / 2] != 0; }
@@ -52,7 +53,7 @@ struct Patch {
     Halfedge find_halfedge(int a, int b) const {
         return mesh.find_halfedge(PatchMesh::VertexHandle(a), PatchMesh::VertexHandle(b));
     }
-    /// The real half-edge that follows one round its polygon.
+    /// The real half-edge that follows one around its polygon.
     Halfedge next_side(Halfedge h) const {
         h = mesh.next_halfedge_handle(h);
         while (diagonal_halfedge(h.idx())) h = mesh.next_halfedge_handle(mesh.opposite_halfedge_handle(h));

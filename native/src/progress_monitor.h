@@ -15,27 +15,27 @@ namespace mrc {
 /// Carries the progress of a call to its caller, on the caller's own thread, and a cancel back to all threads.
 class ProgressMonitor {
   public:
-    /// Ends the work under way; it never leaves the library.
+    /// Thrown to end the current work; it never leaves the library.
     struct Cancelled {};
 
     explicit ProgressMonitor(const Progress& progress) : progress_(progress), caller_(std::this_thread::get_id()) {}
 
-    /// The share done so far. On the caller's thread only.
-    void advance(double share) {
-        share_ = share;
+    /// The fraction done so far. On the caller's thread only.
+    void advance(double fraction) {
+        fraction_ = fraction;
         ask();
         stop_if_cancelled();
     }
 
-    /// For long stages, on any thread, often: the caller is asked again every few milliseconds, with the share as it was.
+    /// For long stages, on any thread, often: the caller is asked again every few milliseconds, with the fraction unchanged.
     void beat() {
         if (due()) ask();
         stop_if_cancelled();
     }
 
-    /// The same with the share done so far, on the caller's thread only.
-    void beat(double share) {
-        share_ = share;
+    /// The same with the fraction done so far, on the caller's thread only.
+    void beat(double fraction) {
+        fraction_ = fraction;
         beat();
     }
 
@@ -58,7 +58,7 @@ class ProgressMonitor {
     const Progress& progress_;
     const std::thread::id caller_;
     std::atomic<bool> cancelled_ = false, failed_ = false;
-    double share_ = 0.0;
+    double fraction_ = 0.0;
     Clock::time_point last_ = Clock::now();
     std::exception_ptr failure_;
 
@@ -69,7 +69,7 @@ class ProgressMonitor {
     void ask() {
         if (!progress_ || cancelled_) return;
         try {
-            if (!progress_(share_)) cancelled_ = true;
+            if (!progress_(fraction_)) cancelled_ = true;
         } catch (...) {
             failure_ = std::current_exception();
             failed_ = true;

@@ -22,7 +22,8 @@ double triangle_area(const Surface& surface, int triangle) {
     return 0.5 * (surface.position(v[1]) - surface.position(v[0])).cross(surface.position(v[2]) - surface.position(v[0])).norm();
 }
 
-/// What a triangle holds: its share of its polygon's area, which no triangulation changes, times the density.
+/// The integral of the density over a triangle. The polygon's area, which no triangulation changes, is divided among its triangles
+/// in proportion to theirs.
 double content(const Surface& surface, std::span<const double> density, int triangle) {
     const int face = surface.triangle_face(triangle);
     double sum = 0.0;
@@ -31,10 +32,10 @@ double content(const Surface& surface, std::span<const double> density, int tria
     return density[face] * polygon_area_vector(surface, face).norm() * triangle_area(surface, triangle) / sum;
 }
 
-/// A spanning tree of triangles, root first: each but the root hands what it has gathered over to the one before it.
+/// A spanning tree of triangles, root first: each but the root passes what it has gathered on to its parent.
 struct Tree {
     std::vector<int> triangles;
-    std::vector<int> leaving;  // the half-edge through which each hands over; of the root, -1
+    std::vector<int> leaving;  // the half-edge through which each passes it on; of the root, -1
 };
 
 /// Breadth first over the triangles that `inside` admits.
@@ -58,7 +59,7 @@ Tree grow_tree(const Surface& surface, const std::vector<int>& seeds, Inside&& i
     return tree;
 }
 
-/// Gathers the contents towards the root: the form on the edge that a triangle leaves by makes up its circulation.
+/// Gathers the contents towards the root: the form on the edge to a triangle's parent gives the triangle its circulation.
 EdgeForm gather(const Surface& surface, const Tree& tree, std::span<const double> density, const Beat& beat) {
     EdgeForm form(surface);
     for (std::size_t i = tree.triangles.size(); i-- > 0;) {
@@ -71,8 +72,8 @@ EdgeForm gather(const Surface& surface, const Tree& tree, std::span<const double
     return form;
 }
 
-/// Of triangles in the order of their distance from two contours, the last that is sure to lie outside what moving one into the other
-/// passes: one at the border of the mesh, which no band encloses; without a border, the last of all.
+/// Of triangles in the order of their distance from two contours, one that moving the first contour into the second does not pass:
+/// the last at the border of the mesh, which no band encloses; without a border, the last of all.
 int outer_triangle(const Surface& surface, const std::vector<int>& triangles) {
     const auto at_border = [&](int t) {
         return surface.twin(3 * t) == Surface::border || surface.twin(3 * t + 1) == Surface::border ||
@@ -82,7 +83,7 @@ int outer_triangle(const Surface& surface, const std::vector<int>& triangles) {
     return last == triangles.rend() ? triangles.back() : *last;
 }
 
-/// True where these triangles, a connected component, close up to a sphere: then every contour parts them in two.
+/// True where these triangles, a connected component, close up to a sphere: then every contour divides them in two.
 bool is_sphere(const Surface& surface, const std::vector<int>& triangles, const Beat& beat) {
     std::unordered_set<int> vertices;
     for (const int t : triangles) {
@@ -97,13 +98,13 @@ bool is_sphere(const Surface& surface, const std::vector<int>& triangles, const 
 
 /// The barycentric coordinates of a point on a triangle's border.
 std::array<double, 3> barycentric(const Surface& surface, int triangle, const SurfacePoint& p) {
-    std::array<double, 3> share{};
+    std::array<double, 3> coordinates{};
     for (std::size_t i = 0; i < 3; ++i) {
         const int v = surface.triangle(triangle)[i];
-        if (v == p.a) share[i] += 1.0 - p.t;
-        if (v == p.b) share[i] += p.t;
+        if (v == p.a) coordinates[i] += 1.0 - p.t;
+        if (v == p.b) coordinates[i] += p.t;
     }
-    return share;
+    return coordinates;
 }
 
 }  // namespace
@@ -144,7 +145,7 @@ EdgeForm region_form(const Surface& surface, const Patch& patch, const Band& ban
         const auto h = patch.mesh.halfedge_handle(face);
         inside.emplace(patch.halfedge[h.idx()] / 3, 1);
     }
-    // The root hands over through the band's border, so every triangle's circulation is made up.
+    // The root passes on through the band's border, so that every triangle has its circulation.
     int root = -1, exit = -1;
     for (const auto h : patch.mesh.halfedges()) {
         const int here = patch.halfedge[h.idx()], there = patch.halfedge[patch.mesh.opposite_halfedge_handle(h).idx()];
@@ -162,8 +163,8 @@ EdgeForm region_form(const Surface& surface, const Patch& patch, const Band& ban
     for (const auto edge : patch.mesh.edges()) {
         if (!band.edge[edge.idx()]) continue;
         const int h = 2 * edge.idx(), here = patch.halfedge[h];
-        const double share = gauge * flow.increment(patch.mesh, h);
-        here >= 0 ? form.add(here, share) : form.add(patch.halfedge[h + 1], -share);
+        const double part = gauge * flow.increment(patch.mesh, h);
+        here >= 0 ? form.add(here, part) : form.add(patch.halfedge[opposite(h)], -part);
     }
     return form;
 }
@@ -185,7 +186,8 @@ double enclosed_change(const Surface& surface, std::span<const double> density, 
     const EdgeForm form = gather(surface, tree, density, beat);
     const double change = form.along(to) - form.along(from);
     if (!is_sphere(surface, tree.triangles, beat)) return change;
-    // There a contour may pass the root. The form misses the whole where the root is on a contour's left: where its area is negative.
+    // There a contour may pass the root. The form misses the whole where the root is on a contour's left: where its area is
+    // negative.
     const std::vector<double> ones(surface.face_count(), 1.0);
     const EdgeForm area = gather(surface, tree, ones, beat);
     double total = 0.0;

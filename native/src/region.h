@@ -31,7 +31,7 @@ class EdgeForm {
     }
 };
 
-/// The region term of 6.1.2 by discrete Stokes: a form whose circulation round each face of the band is the face's density times its
+/// The region term of 6.1.2 by discrete Stokes: a form whose circulation around each face of the band is the face's density times its
 /// area, so that along a closed contour it gives, up to a constant, what the contour encloses on its left. The constant is a
 /// multiple of the flow, which every contour of the band passes once.
 ///

@@ -7,7 +7,7 @@
 namespace mrc {
 namespace {
 
-/// The best way to node n: along one of its arcs or, with value `best`, from the source `start`. The solver spends most of its time
+/// The best path to node n: along one of its arcs or, with value `best`, from the source `start`. The solver spends most of its time
 /// here, so the compiler must be able to inline it.
 void relax_node(const WeightedGraph& graph, int n, double best, int start, Pass& pass) {
     int arc = -1;

@@ -10,7 +10,7 @@ bool has_required_elements(const Contour& contour, const Constraints& constraint
     const auto passes = [&](int v) { return std::ranges::find(contour.points, vertex_point(v)) != contour.points.end(); };
     const auto runs_along = [&](const std::array<int, 2>& ends) {
         const DirectedEdge edge{ends[0], ends[1]};
-        // All the way from one end to the other without leaving the edge.
+        // From one end to the other without leaving the edge.
         for (std::size_t i = 0; i < count; ++i) {
             if (!contour.points[i].is_vertex() || !edge.holds(contour.points[i])) continue;
             for (std::size_t j = i + 1; j < i + count && (contour.closed || j < count); ++j) {

@@ -37,7 +37,7 @@ int first_snapped(const Surface& surface, const Contour& contour, Snap snap) {
                           : snapped(surface, points.front(), points[1], true, snap);
 }
 
-/// The shorter path round the polygon from a to b, both of which it holds; without a, with b.
+/// The shorter path around the polygon from a to b, both of which it holds; without a, with b.
 void append_path(const Surface& surface, int face, int a, int b, std::vector<int>& chain) {
     const auto corners = surface.face(face);
     const auto n = static_cast<std::ptrdiff_t>(corners.size());

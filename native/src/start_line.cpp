@@ -46,8 +46,8 @@ Curve start_line(const Patch& patch, const Band& band, const Curve& right, const
     return across(before, queue.top().second);
 }
 
-/// Marks the corners behind the line: at each of its vertices those from the way ahead, or from the left border, round to the way
-/// back, or to the right border.
+/// Marks the corners behind the line: at each of its vertices those from the next edge of the line, or the left border, around to
+/// the edge before, or the right border.
 void mark_behind(const Patch& patch, const Band& band, Halfedge left_border, OpenedBand& cut) {
     const PatchMesh& mesh = patch.mesh;
     const auto in_band = [&](Halfedge h) { return mesh.face_handle(h).is_valid() && band.face[mesh.face_handle(h).idx()]; };

@@ -14,7 +14,7 @@ namespace mrc {
 /// of the strip's mean slope beside a shorter tie counts as crossing it and is dropped, and no edge counts for less than a
 /// thousandth of its strip's mean edge.
 ///
-/// Around an open curve the strips run from its first vertex, at 0, to its last, at 1, each with a way round either end. So what
+/// Around an open curve the strips run from its first vertex, at 0, to its last, at 1, each passing around either end. So what
 /// lies behind an end rises away from the first vertex, and towards the last one, as everywhere else; there is no start line. A
 /// strip that runs along the piece of mesh border at 0 rises from the last vertex that it has there, and likewise up to the first
 /// one at 1. What only the band's end polygons hold lies evenly between the vertices of strips beside it.

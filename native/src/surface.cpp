@@ -196,7 +196,7 @@ size_t Surface::fan_size(int start) const {
     size_t size = 1;
     for (int h = twin(previous(start)); h != start; h = twin(previous(h)), ++size) {
         if (h >= 0) continue;
-        for (h = twin(start); h >= 0; h = twin(next(h))) ++size;  // an open fan: the rest lies the other way
+        for (h = twin(start); h >= 0; h = twin(next(h))) ++size;  // an open fan: the rest lies on the other side
         break;
     }
     return size;

@@ -10,7 +10,7 @@
 
 namespace mrc {
 
-/// Gathers what is wrong, says the first few in full and how many more there are.
+/// Collects complaints; the message has the first few in full and the number of the others.
 class Complaints {
   public:
     template <class Text>

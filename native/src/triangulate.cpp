@@ -11,9 +11,9 @@
 namespace mrc {
 namespace {
 
-// Below this sine (or share of a quad's area) a corner counts as straight: positions often come from 32-bit floats.
+// Below this sine (or fraction of a quad's area) a corner counts as straight: positions often come from 32-bit floats.
 constexpr double straight = 1e-6;
-// Diagonals that differ by less than this share count as equal, so that rotating a mesh does not flip its squares.
+// Diagonals that differ by less than this fraction count as equal, so that rotating a mesh does not flip its squares.
 constexpr double tie = 1e-6;
 
 // Newell's normal: twice the area vector, for polygons that are not planar the best of its kind.
@@ -30,9 +30,9 @@ int quad_diagonal(std::span<const Vec3> q) {
     const Vec3 first = q[2] - q[0];
     const Vec3 second = q[3] - q[1];
     const Vec3 normal = first.cross(second);
-    // A diagonal leaves both triangles with the quad's winding where each has a share of its area between 0 and 1.
+    // A diagonal leaves both triangles with the quad's winding where each has between 0 and 1 of its area.
     const double whole = normal.squaredNorm();
-    const auto inside = [&](double share) { return share > straight * whole && share < (1.0 - straight) * whole; };
+    const auto inside = [&](double part) { return part > straight * whole && part < (1.0 - straight) * whole; };
     const bool first_inside = inside((q[1] - q[0]).cross(first).dot(normal));
     const bool second_inside = inside((q[2] - q[1]).cross(second).dot(normal));
     if (first_inside != second_inside) return first_inside ? 0 : 1;
@@ -145,7 +145,7 @@ bool PolygonSides::read(std::span<const int> polygon, std::span<const std::array
     return false;
 }
 
-// The quick way for triangles and quads whose triangles start where they usually do.
+// A shortcut for triangles and quads whose triangles start where they usually do.
 bool PolygonSides::read_plain(std::span<const int> polygon, std::span<const std::array<int, 3>> triangles, int first_triangle) {
     const auto is = [&](size_t triangle, int a, int b, int c) {
         return triangles[triangle] == std::array{polygon[a], polygon[b], polygon[c]};

@@ -18,7 +18,7 @@ struct Attractor {
     std::optional<double> sigma;  ///< of its Gaussian; none: half the radius
 };
 
-/// What a user asks of a contour besides being good.
+/// What a caller asks of a contour besides a low ratio.
 struct Constraints {
     std::vector<int> required_vertices;              ///< vertices that the contour must pass (4.4)
     std::vector<std::array<int, 2>> required_edges;  ///< real edges that it must run along

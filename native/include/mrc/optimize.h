@@ -25,7 +25,7 @@ enum class Reason {
     none,          ///< it is not
     already_best,  ///< nothing in its band is better
     not_salient,   ///< there is nothing concave to find (min_salience); of a constrained result too, which is not the given one
-    no_room,       ///< no band can grow: its faces touch it all round
+    no_room,       ///< no band can grow: its faces touch it all around
     against_flow,  ///< no contour in the band runs along with the flow
     no_neighbour,  ///< it is refined, and no simple contour along edges lies beside it
     shared_faces,  ///< no band can grow: other contours cross its faces too

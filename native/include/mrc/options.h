@@ -11,8 +11,8 @@ enum class FlowKind { gates, arc_length, harmonic };
 /// What contours follow: concave creases, or crests (3.4, footnote).
 enum class Feature { valley, ridge };
 enum class RegionSide { left, right };
-/// What is held at the ends of an open curve (4.6): the first and the last edge, their end vertices, or these but where they lie on
-/// the mesh border, along which they slide.
+/// What is held at the ends of an open curve (4.6): the first and the last edge, their end vertices, or these except where they lie
+/// on the mesh border, along which they slide.
 enum class Ends { edges, vertices, border };
 /// What length_bias counts, and what the ratio divides by: lengths, or numbers of edges (appendix A).
 enum class LengthMeasure { arc, edges };
@@ -38,7 +38,7 @@ struct Options {
     double direction_exponent = 1.0;  ///< b: sign(c) |c|^b in the place of a cosine c
     Feature feature = Feature::valley;
     double max_turn = std::numbers::pi / 2;  ///< radians in the tangent plane; arcs that turn more are pruned
-    double anchor = 0.0;  ///< in K, 0 or more: holds the contour near the given one: a far feature must be worth the way
+    double anchor = 0.0;  ///< in K, 0 or more: holds the contour near the given one: a far feature must be worth the distance
     std::optional<double> feature_clamp;  ///< quantile in (0, 1) of the negative kappa_min at which their size is cut off
     double crease = 0.0;                  ///< in K, 0 or more: pull of crisp creases, seen at their own edges
     // region term, 6.1.2
@@ -46,7 +46,7 @@ struct Options {
     RegionSide region_side = RegionSide::left;  ///< which side of the given direction counts as enclosed
     // length bias, 6.1.1
     double length_bias = 0.0;   ///< beta: weight of length / L0 beside ratio / K
-    double length_floor = 0.0;  ///< below this share of L0 nothing is gained by shrinking
+    double length_floor = 0.0;  ///< below this fraction of L0 nothing is gained by shrinking
     LengthMeasure length_measure = LengthMeasure::arc;
     Denominator denominator = Denominator::length;
     Ends ends = Ends::edges;

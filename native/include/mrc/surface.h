@@ -71,7 +71,7 @@ class Surface {
 
     /// The half-edges that start at a vertex, ascending.
     std::span<const int> outgoing(int vertex) const;
-    /// True where the faces round the vertex form one fan, open or closed, of edges with agreeing winding.
+    /// True where the faces around the vertex form one fan, open or closed, of edges with agreeing winding.
     bool regular(int vertex) const { return regular_[vertex] != 0; }
 
     /// A half-edge from a to b, or `no_element`: the first by index where there are several.

@@ -35,8 +35,8 @@ struct Contour {
 
 Contour vertex_contour(std::span<const int> vertices, bool closed = true);
 
-/// Called with the share done, from 0 to 1 without falling, on the caller's thread, often; false cancels, and what it throws reaches
-/// the caller.
+/// Called often, on the caller's thread, with the fraction done, which rises from 0 to 1. False cancels; an exception cancels and
+/// reaches the caller.
 using Progress = std::function<bool(double)>;
 
 }  // namespace mrc
