@@ -19,7 +19,7 @@ FORBIDDEN |= {"render", "rmdir", "symlink_to", "hardlink_to", "system", "tofile"
 FORBIDDEN_STARTS = ("dump", "export", "load", "makedirs", "mkdir", "open", "save", "url_", "write")
 FORBIDDEN_ENDS = ("_export", "_install", "_render")
 # The add-on's own functions, which write to meshes, and harmless ones with similar names.
-KNOWN = {"cut.write", "outputs.write", "seams.write", "write_labels", "write_seams"}
+KNOWN = {"cut.write", "outputs.write", "seam_network.write", "write_labels", "write_seams"}
 KNOWN |= {"gpu.matrix.load_projection_matrix", "re.compile", "messages.open_region", "segmentation.write"}
 
 
@@ -58,7 +58,14 @@ NOTICED = ["__import__", "eval", "exec", "file.write", "numpy.load", "numpy.save
 NOTICED += ["bpy.ops.export_scene.gltf", "bpy.ops.render.render", "bpy.ops.wm.obj_export", "bpy.ops.wm.save_userpref"]
 NOTICED += ["bpy.ops.wm.save_as_mainfile", "bpy.ops.wm.url_open", "bpy.utils.execfile", "image.save_render"]
 NOTICED += ["bpy.ops.extensions.package_install", "bpy.ops.text.run_script", "path.chmod"]
-HARMLESS_CALLS = ["seams.write", "importlib.import_module", "self.execute", "parts.append", "old.touches", "re.compile"]
+HARMLESS_CALLS = [
+    "outputs.write",
+    "importlib.import_module",
+    "self.execute",
+    "parts.append",
+    "old.touches",
+    "re.compile",
+]
 
 
 def test_forbidden_modules_and_calls_are_detected():
