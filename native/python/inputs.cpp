@@ -58,6 +58,7 @@ bool is_nested(const py::object& value, int depth) {
 bool to_bool(const py::object& value, const char* name) {
     py::detail::make_caster<bool> caster;
     if (!caster.load(value, true)) {
+        static_cast<void>(py::bool_(value));  // its own exception where it has no truth, as arrays
         throw py::type_error(std::string(name) + " must be True or False, not " +
                              py::cast<std::string>(py::type::of(value).attr("__name__")));
     }
