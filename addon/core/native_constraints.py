@@ -10,7 +10,7 @@ import numpy as np
 from .edge_paths import common_edges, contour_edges
 from .parameters import native_options
 
-_BESIDE = tuple(product((-1, 0, 1), repeat=3))  # a cell and those round it
+_BESIDE = tuple(product((-1, 0, 1), repeat=3))  # a cell and those around it
 _NO_FACES = np.empty(0, dtype=np.int32)
 
 

@@ -31,8 +31,8 @@ std::string text_of(const Contour& contour) {
 void bind_contour(py::module_& module) {
     py::class_<Contour> contour(
         module, "Contour",
-        "A closed loop or an open curve: vertices, or points on edges. A value: it never changes, equal ones have equal points\n"
-        "and closed, and len says how many points. It is taken wherever vertices are, and brings its own closed.");
+        "A closed loop or an open curve: vertices, or points on edges. An immutable value: two are equal where their points\n"
+        "and closed are, and len is the number of points. Accepted wherever vertices are, with its own closed.");
     define_constructor(
         contour, &to_contour,
         "vertices: (N,) ids in order along real edges; a closed contour does not repeat its first. Or a Contour or a\n"

@@ -80,7 +80,7 @@ Classes make_classes(py::module_& module) {
     const py::object invalid_input = make_class(
         module, "InvalidInput", PyExc_ValueError, members,
         "Input that cannot be used. The message names the elements and says what to do; it begins with the contour's place\n"
-        "where optimize_all raises it of several contours. It can be pickled.");
+        "where optimize_all raises it for one of several contours. It can be pickled.");
     return {invalid_input,
             make_class(module, "TooLarge", invalid_input, py::dict(),
                        "The search would take more memory than there is. The message says what to lower."),

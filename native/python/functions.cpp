@@ -39,7 +39,7 @@ PyResult optimize(const Surface& surface, const py::object& vertices, bool close
     return describe(surface, mrc::optimize(surface, contour, options, constraints, scales, report));
 }
 
-/// Of what the option `errors` says.
+/// Whether the argument `errors` asks for errors to be returned.
 bool returns_errors(const py::object& errors) {
     const std::string words = py::isinstance<py::str>(errors) ? py::cast<std::string>(errors) : "";
     if (words == "return") return true;
@@ -299,17 +299,17 @@ void bind_functions(py::module_& module) {
         "vertices: (N,) ids (whole numbers) in order along real edges; a closed contour does not repeat its first; or a Contour\n"
         "or an earlier Result, which bring their own closed.\n"
         "edge_vertices, edge_parameters: (N, 2) and (N,), a contour across faces: point i lies at (1 - t) a + t b.\n"
-        "required_vertices, required_edges: ids and (n, 2) vertex pairs that the contour must hold (4.4).\n"
+        "required_vertices, required_edges: ids and (n, 2) vertex pairs that the contour must contain (4.4).\n"
         "attractors: (vertex, radius, strength) or (vertex, radius, strength, sigma), soft constraints (4.5): radius and sigma in\n"
-        "the mesh's unit, sigma half the radius where it is not given; strength in K, below 0 it pushes off.\n"
-        "barriers: (n, 2) vertex pairs, edges that no contour crosses, the given one neither.\n"
-        "region_density: (F,) float64 per area, closed contours: with the option region_weight its change on the side region_side\n"
-        "weighs (6.1.2).\n"
-        "scales: those of an earlier result, to go on from it.\n"
-        "progress: called with the share done, from 0 to 1, three phases an iteration, and in long phases again every few\n"
-        "milliseconds; returning False cancels, an exception passes through. Ctrl-C ends the call with or without it;\n"
-        "only one step cannot be interrupted, the ordering of the harmonic flow's equations, which takes about 0.2 s where 10^6\n"
-        "triangles are searched.\n"
+        "the mesh's unit, sigma half the radius where it is not given; strength in K; below 0 it repels.\n"
+        "barriers: (n, 2) vertex pairs, edges that no contour may cross, including the given one.\n"
+        "region_density: (F,) float64 per area, for closed contours only: the option region_weight weighs how much of it the side\n"
+        "region_side gains or loses (6.1.2).\n"
+        "scales: those of an earlier result, to continue from it.\n"
+        "progress: called with the fraction done, from 0 to 1, three times per iteration, and every few milliseconds\n"
+        "during long phases; returning False cancels, an exception passes through. Ctrl-C ends the call with or without\n"
+        "it. Only the ordering of the harmonic flow's equations cannot be interrupted, about 0.2 s where 10^6 triangles are\n"
+        "searched.\n"
         "Returns a Result. Raises InvalidInput, a ValueError that names the elements, where the contour is not simple, not inside\n"
         "the mesh or crosses a barrier; of these Infeasible, where no contour of the band has all required elements, and "
         "TooLarge,\n"
@@ -325,11 +325,11 @@ void bind_functions(py::module_& module) {
         "Contour or as an earlier Result.\n"
         "closed, required_vertices, required_edges, scales: one for all contours, or a sequence with one for each.\n"
         "The other arguments are those of optimize.\n"
-        "Each contour searches the faces that are nearer to it than to any other; what two bands share is closed to both. The\n"
-        "results do not depend on the order of the contours, nor on the option threads.\n"
-        "errors: 'raise', or 'return': a contour in error gets its InvalidInput in the place of a Result and stays where it is,\n"
-        "and the others are optimized all the same. Where it runs along real edges they keep clear of it.\n"
-        "Returns a list of Results; held_back_by says which other contours kept one's band from growing. Raises what optimize\n"
+        "Each contour searches the faces that are nearer to it than to any other; what two bands have in common is closed to\n"
+        "both. The results do not depend on the order of the contours, nor on the option threads.\n"
+        "errors: 'raise', or 'return': a contour in error gets its InvalidInput instead of a Result and stays where it is,\n"
+        "and the others are optimized all the same. Where it runs along real edges, they do not cross it.\n"
+        "Returns a list of Results; held_back_by of each says which others kept its band from growing. Raises what optimize\n"
         "raises, for the first contour in error: the attribute contour is its place in the list.",
         py::arg("surface"), py::arg("contours"), py::arg("closed") = true, defaults, py::arg("required_vertices") = nothing,
         py::arg("required_edges") = nothing, py::arg("attractors") = nothing, py::arg("barriers") = nothing,
@@ -337,7 +337,7 @@ void bind_functions(py::module_& module) {
         py::arg("errors") = "raise");
     define(module, "check_contour", &check_contour,
            "Why optimize would refuse a contour, without a search: an InvalidInput that is not raised, or None. Arguments are\n"
-           "those of optimize. Required elements that cannot be reached are found by the search only.",
+           "those of optimize. Only a search finds required elements that cannot be reached.",
            py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true, py::arg("barriers") = nothing,
            py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none());
     define(module, "measure", &measure,
@@ -345,31 +345,30 @@ void bind_functions(py::module_& module) {
            py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true, defaults,
            py::arg("attractors") = nothing, py::arg("region_density") = py::none(), py::arg("scales") = py::none(),
            py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none());
-    define(
-        module, "close_contour", &close_contour,
-        "Closes an open chain round the limb that it lies on, so that part of a loop drawn by hand is enough.\n\n"
-        "vertices: (N,) ids along mesh edges, from one end to the other, at least two; or an open Contour. A quarter of a\n"
-        "loop nearly always finds the limb.\n"
-        "progress: called every few milliseconds with the share of the vertices searched, from 0 to 1; returning False cancels,\n"
-        "and None is returned; an exception passes through.\n"
-        "Returns (n,) int32: the closed contour, which begins with the chain. The way back is the path that is cheapest where\n"
-        "the surface is far from the chain and faces away from it (Lee et al. 2004). Give it to optimize. Raises ValueError\n"
-        "where nothing leads round, as on a plane.",
-        py::arg("surface"), py::arg("vertices"), py::arg("progress") = py::none());
+    define(module, "close_contour", &close_contour,
+           "Closes an open chain around the limb that it lies on, so that part of a loop drawn by hand is enough.\n\n"
+           "vertices: (N,) ids along mesh edges, from one end to the other, at least two; or an open Contour. A quarter of a\n"
+           "loop nearly always finds the limb.\n"
+           "progress: called every few milliseconds with the fraction of the vertices searched, 0 to 1; returning False cancels,\n"
+           "and None is returned; an exception passes through.\n"
+           "Returns (n,) int32: the closed contour, which begins with the chain. The path back is the cheapest; it costs least\n"
+           "where the surface is far from the chain and faces away from it (Lee et al. 2004). Pass it to optimize. Raises\n"
+           "InvalidInput where the chain cannot be closed around anything, as on a plane.",
+           py::arg("surface"), py::arg("vertices"), py::arg("progress") = py::none());
     define(
         module, "curvature", &curvature,
         "The curvatures at all vertices (3.4), a Curvature; without scales, h is the surface's mean edge length. Of the options\n"
-        "it reads curvature_radius and curvature_smoothing.",
+        "it uses curvature_radius and curvature_smoothing.",
         py::arg("surface"), defaults, py::arg("scales") = py::none());
     define_worded(
         module, "band", &band, &overloads_by_sides,
         "(n,) int32: the faces that optimize searches first, ascending (4.2.1). Arguments and errors are those of optimize.\n"
-        "sides: give two arrays, the faces and (n,) int8: 1 left of the contour, -1 right of it. A face lies on the side from\n"
-        "which the band reached it; 0: beyond an end of an open contour, where its two sides meet.",
+        "sides: return two arrays, the faces and (n,) int8: 1 left of the contour, -1 right of it, 0 beyond an end of an open\n"
+        "contour, where its two sides meet. A face that touches both sides is on the one from which the band reached it.",
         py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true, defaults,
         py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none(), py::arg("sides") = false);
     define(module, "search_space", &search_space,
-           "All that one search with these width and refinement builds, as a dict of arrays: for display and tests.\n"
+           "What one search with this width and refinement builds, as a dict of arrays, for display and tests.\n"
            "Arguments and errors are those of optimize. Vertices are ids of the surface, indices int32, numbers float64.\n\n"
            "The band: faces (n,); vertices (n,) with side (n,), 1 left, -1 right, 0 on the contour, and round (n,), the dilation\n"
            "that reached each; left, right and strips: lists of (m,) vertices, the boundary after each round on either side, and\n"

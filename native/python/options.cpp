@@ -106,18 +106,18 @@ Row choice(const char* name, const Names<Enum, N>& names, Enum Options::*member,
 const std::vector<Row>& rows() {
     static const std::vector<Row> table{
         field("width", &Options::width,
-              "rings of faces to each side, at least 1; None: until topology stops the band (4.2.1); what\n"
-              "is refined then works in a band of the default width around the regular result"),
+              "rings of faces on each side, at least 1; None: until topology stops the band (4.2.1);\n"
+              "iterations with refinement then search a band of the default width around the regular result"),
         field("band_distance", &Options::band_distance,
-              "besides, from the third ring on, only faces within this distance of the\n"
-              "contour, in average radii of the connected component; None: no bound"),
+              "a further limit from the third ring on: only faces within this distance of the\n"
+              "contour, in average radii of the connected component; None: no limit"),
         field("refinement", &Options::refinement, "k Steiner points on each edge, 0 or more; 0: contours keep to mesh edges (3.2)"),
         field("regular_iterations", &Options::regular_iterations,
               "iterations along mesh edges first, 0 or more; each searches a band\n"
               "around the last one's result and ends early where nothing moves (5.3, 5.6)"),
-        field("iterations", &Options::iterations, "then iterations with refinement, 0 or more"),
+        field("iterations", &Options::iterations, "iterations with refinement after these, 0 or more"),
         field("length_bias", &Options::length_bias, "weight of length / L0 beside ratio / K, 0 or more (6.1.1)"),
-        field("length_floor", &Options::length_floor, "below this share of L0 nothing is gained by shrinking, 0 or more"),
+        field("length_floor", &Options::length_floor, "below this fraction of L0 nothing is gained by shrinking, 0 or more"),
         choice("length_measure", length_measure_names, &Options::length_measure, "'arc', or 'edges' (appendix A)"),
         choice("denominator", denominator_names, &Options::denominator,
                "'length', or 'arcs' (appendix A); with a length_bias 'arc'\n"
@@ -126,7 +126,7 @@ const std::vector<Row>& rows() {
         field("feature_clamp", &Options::feature_clamp,
               "quantile in (0, 1) of the concave curvatures near the contour where their\n"
               "size is cut off; None: none"),
-        field("crease", &Options::crease, "pull of crisp concave edges onto themselves, 0 or more"),
+        field("crease", &Options::crease, "how strongly sharp concave edges pull contours onto themselves, 0 or more"),
         field("min_salience", &Options::min_salience,
               "where the best found is less salient than this, the given contour stays;\n"
               "None: it always moves"),
@@ -137,9 +137,9 @@ const std::vector<Row>& rows() {
               "sigma of the tensor's Gaussian, in mean edge lengths, 0 or more; 0: none\n"
               "(3.4)"),
         field("kappa0_factor", &Options::kappa0_factor, "kappa_0 of eq. 3.2 over the mean curvature K, above 0"),
-        field("feature_exponent", &Options::feature_exponent, "a: K |kappa / K|^a in the place of |kappa|, above 0, at most 16"),
+        field("feature_exponent", &Options::feature_exponent, "a: K |kappa / K|^a instead of |kappa|, above 0, at most 16"),
         field("direction_exponent", &Options::direction_exponent,
-              "b: sign(c) |c|^b in the place of eq. 3.2's cosines c, above 0, at most 16"),
+              "b: sign(c) |c|^b instead of eq. 3.2's cosines c, above 0, at most 16"),
         choice("feature", feature_names, &Options::feature, "'valley', or 'ridge' for contours along crests (3.4, footnote)"),
         choice("flow", flow_names, &Options::flow, "'gates', 'arc_length' or 'harmonic' (4.2.3)"),
         choice("ends", ends_names, &Options::ends,
@@ -147,10 +147,10 @@ const std::vector<Row>& rows() {
                "'border' lets ends on the mesh border slide along it (4.6)"),
         field("max_turn", &Options::max_turn,
               "radians in the tangent plane, above 0 and at most pi; sharper turns are pruned (3.2)"),
-        field("region_weight", &Options::region_weight, "of the change of the density enclosed, in K / L0 (6.1.2)"),
+        field("region_weight", &Options::region_weight, "weight of the change of the density enclosed, in K / L0 (6.1.2)"),
         choice("region_side", region_side_names, &Options::region_side,
                "'left' or 'right' of the given direction: what is enclosed"),
-        field("threads", &Options::threads, "on which optimize_all works; 0: as many as the machine has. No result depends on it"),
+        field("threads", &Options::threads, "threads of optimize_all; 0: as many as the machine has. No result depends on it"),
     };
     return table;
 }
@@ -187,8 +187,8 @@ py::dict values_of(const Options& options) {
 std::string documentation() {
     const Options defaults;
     std::string text =
-        "The settings of the method, all given by keyword. Unknown ones and wrong types are a TypeError, values out of range a\n"
-        "ValueError. Sections and equations are those of Clements 2006. With their defaults:\n\n";
+        "The settings of the method, all given by keyword. Unknown names and wrong types raise TypeError, values out of range\n"
+        "InvalidInput. Sections and equations are those of Clements 2006. With their defaults:\n\n";
     for (const Row& row : rows()) {
         text += std::string(row.name) + " = " + std::string(py::repr(row.get(defaults))) + ": " + row.meaning + ".\n";
     }

@@ -84,7 +84,7 @@ void bind_scales(py::module_& module) {
         .def_readonly("kappa_0", &Scales::kappa_0, "The constant of eq. 3.2: kappa0_factor K.")
         .def_readonly("L0", &Scales::L0, "Length of the contour, in the mesh's unit.")
         .def_readonly("clamp", &Scales::clamp, "Where the size of feature curvatures is cut off; infinity: nowhere.")
-        .def_readonly("n0", &Scales::n0, "Its number of arcs, with the Steiner points of the run.")
+        .def_readonly("n0", &Scales::n0, "Its number of arcs, with the Steiner points of the search.")
         .def_property_readonly(
             "given", [](const Scales& s) { return contour_vertices(s.given); },
             "(N,) int32: the contour's vertices; -1 for points between vertices.")
@@ -248,8 +248,8 @@ void bind_results(py::module_& module) {
             "'shared_faces', 'none_refined', 'cancelled', or empty.")
         .def_property_readonly(
             "reason", field(&mrc::Result::reason),
-            "In words: why the given contour is returned; of a 'constrained' result that nothing concave was found\n"
-            "(min_salience); else, and where no iteration was asked for, empty.")
+            "In words: why the given contour is returned or, for a 'constrained' result, that nothing concave was found\n"
+            "(min_salience); otherwise, and where no iteration was asked for, empty.")
         .def_property_readonly("ratio", field(&mrc::Result::ratio), "Of the contour returned (eq. 3.3); the lower, the better.")
         .def_property_readonly("initial_ratio", field(&mrc::Result::initial_ratio), "Of the given contour.")
         .def_property_readonly(
@@ -259,26 +259,27 @@ void bind_results(py::module_& module) {
         .def_property_readonly(
             "salience", field(&mrc::Result::salience),
             "How far to trust the best found, even where the given contour is returned: minus the ratio of eq. 3.2's energy alone\n"
-            "(with feature_clamp; without anchor, crease, attractors and region), over K. Above 2 nearly always right, below 0.5\n"
-            "seldom.")
+            "(with feature_clamp; without anchor, crease, attractors and region), over K. Above 2 it is nearly always right,\n"
+            "below 0.5 seldom.")
         .def_property_readonly("lower_bound", field(&mrc::Result::lower_bound),
                                "No contour of the last iteration's graph has a lower objective.")
         .def_property_readonly("gap", field(&mrc::Result::gap), "Objective of the best found minus lower_bound, never negative.")
         .def_property_readonly(
             "held_back_by", [](const PyResult& r) { return py::typing::Tuple<int, py::ellipsis>(py::cast(r.result.held_back_by)); },
-            "tuple of int: of optimize_all's contours those that kept this one's last band from growing, by their place in the "
+            "tuple of int: the contours of optimize_all that kept this one's last band from growing, by their place in the "
             "list.")
         .def_property_readonly(
             "history", field(&mrc::Result::history),
-            "list of float: the objective after each iteration that had a band, before these that of the contour they start from:\n"
-            "once for the regular_iterations and once for those with refinement. It never rises but between these.\n"
-            "Where the given contour breaks a requirement, the first that keeps all is the start.")
+            "list of float: the objective of the contour that the iterations start from, then that after each iteration that had "
+            "a\n"
+            "band: one such series for regular_iterations and one for iterations. It never rises within a series. Where the\n"
+            "given contour breaks a requirement, the first contour that keeps all is the start.")
         .def_property_readonly("scales", field(&mrc::Result::scales),
-                               "The Scales of the given contour; give them back to go on from here.")
+                               "The Scales of the given contour; pass them to optimize to continue from here.")
         .def_property_readonly(
             "statistics", &statistics,
             "dict: faces, cut, nodes, arcs, linear_steps and passes of the last iteration, as in tables 5.1 and 5.2; iterations, "
-            "done in all; seconds, a dict of the time of each stage.")
+            "done in all; seconds, a dict of the time that each stage took.")
         .def_property_readonly("contour", field(&mrc::Result::contour), "The Contour found.")
         .def_property_readonly("length", field(&mrc::Result::length),
                                "Of the contour returned along its segments, in the mesh's unit.")
@@ -298,9 +299,8 @@ void bind_results(py::module_& module) {
             "(N, 3) float64: the points in space, in the mesh's unit.")
         .def_property_readonly(
             "segment_faces", [](const PyResult& r) { return to_array(r.segment_faces); },
-            "(N,) int32, of an open contour (N - 1,): a face that holds the segment from each point to the next; along an edge "
-            "the\n"
-            "left one.")
+            "(N,) int32, of an open contour (N - 1,): a face that holds the segment from each point to the next; along an edge\n"
+            "the left one.")
         .def("__repr__", [](const PyResult& r) {
             return std::string("<mrcontour.Result: ") + status_name(r.result.status) + ", ratio " +
                    std::to_string(r.result.initial_ratio) + " -> " + std::to_string(r.result.ratio) + ">";

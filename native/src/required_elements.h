@@ -20,7 +20,7 @@ class RequiredElements {
         double level, rank;
         int point;
     };
-    /// A chord's interval of the flow, from tail to head, and its ends' ranks. One that crosses the cut wraps round.
+    /// A chord's interval of the flow, from tail to head, and its ends' ranks. One that crosses the cut wraps around.
     struct Span {
         double tail_level, head_level;
         bool wraps;

@@ -111,7 +111,7 @@ TEST_F(BandOf, the_reversed_contour_has_the_same_faces_and_left_and_right_trade_
     for (const Contour& contour : {loop, chain}) {
         const Grown one = grown(tube, contour, 3), other = grown(tube, made::reversed(contour), 3);
         EXPECT_EQ(one.faces(), other.faces());
-        if (!contour.closed) continue;  // polygons round the ends of a curve are of whichever side comes first
+        if (!contour.closed) continue;  // polygons around the ends of a curve are of whichever side comes first
         EXPECT_EQ(one.vertices(Side::left), other.vertices(Side::right));
         EXPECT_EQ(one.vertices(Side::right), other.vertices(Side::left));
     }

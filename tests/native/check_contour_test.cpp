@@ -17,7 +17,7 @@ namespace {
 
 using Edge = std::array<int, 2>;
 
-/// A torus with hidden faces, two that are missing, and one that faces the other way: obstacles of every kind on the way of loops.
+/// A torus with hidden faces, two that are missing, and one that faces the other way: obstacles of every kind on the path of loops.
 Surface worn_torus() {
     const Surface whole = mrc_test::waisted_torus();
     std::vector<double> positions;
@@ -53,7 +53,7 @@ class RandomContours {
   public:
     explicit RandomContours(const Surface& surface) : surface_(surface) {}
 
-    /// A loop round the tube with up to two faults, open or closed, on vertices or beside them.
+    /// A loop around the tube with up to two faults, open or closed, on vertices or beside them.
     Contour next() {
         Contour contour = mrc_test::loop_near(below(mrc_test::waists));
         std::ranges::rotate(contour.points, contour.points.begin() + below(static_cast<int>(contour.points.size())));

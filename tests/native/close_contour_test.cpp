@@ -18,7 +18,7 @@
 namespace mrc {
 namespace {
 
-/// A tube of quads round the z axis: vertex row * columns + column.
+/// A tube of quads around the z axis: vertex row * columns + column.
 struct Tube {
     int rows = 30;
     int columns = 24;
@@ -72,7 +72,7 @@ std::string message_of(const Surface& surface, const Contour& chain) {
     return {};
 }
 
-TEST(Close, ClosesEveryPartOfAStraightRingToTheRing) {
+TEST(CloseContour, ClosesEveryPartOfAStraightRingToTheRing) {
     const Tube tube;
     const Surface surface = tube.surface();
     const std::set<int> ring = vertices_of(tube.chain(14, 0, tube.columns));
@@ -88,7 +88,7 @@ TEST(Close, ClosesEveryPartOfAStraightRingToTheRing) {
     }
 }
 
-TEST(Close, AReversedChainGivesTheSameLoopReversed) {
+TEST(CloseContour, AReversedChainGivesTheSameLoopReversed) {
     for (const double noise : {0.0, 0.01}) {
         const Tube tube{.noise = noise};
         const Surface surface = tube.surface();
@@ -102,7 +102,7 @@ TEST(Close, AReversedChainGivesTheSameLoopReversed) {
     }
 }
 
-TEST(Close, GoesRoundHiddenFacesWhereItCan) {
+TEST(CloseContour, GoesAroundHiddenFacesWhereItCan) {
     Tube tube;
     for (int row = 13; row < 16; ++row) tube.hidden.push_back(row * tube.columns + 18);
     const std::set<int> loop = vertices_of(close_contour(tube.surface(), tube.chain(14, 2, 8)));
@@ -111,7 +111,7 @@ TEST(Close, GoesRoundHiddenFacesWhereItCan) {
     }
 }
 
-TEST(Close, SaysWhyItCannot) {
+TEST(CloseContour, SaysWhyItCannot) {
     Tube tube;
     const Surface whole = tube.surface();
     EXPECT_NE(message_of(whole, tube.chain(14, 3, 1)).find("1 vertices"), std::string::npos);
@@ -123,7 +123,7 @@ TEST(Close, SaysWhyItCannot) {
     EXPECT_NE(message.find("vertex " + std::to_string(14 * tube.columns + 9)), std::string::npos);
 }
 
-TEST(Close, ProgressNeverFallsAndChangesNothing) {
+TEST(CloseContour, ProgressNeverFallsAndChangesNothing) {
     const Tube tube{.rows = 120, .columns = 200, .noise = 0.001};
     const Surface surface = tube.surface();
     const Contour chain = tube.chain(60, 3, 60);
@@ -139,7 +139,7 @@ TEST(Close, ProgressNeverFallsAndChangesNothing) {
     EXPECT_GT(shares.size(), 2U);
 }
 
-TEST(Close, CancelledItHasNoPoints) {
+TEST(CloseContour, CancelledItHasNoPoints) {
     const Tube tube;
     int calls = 0;
     const Contour loop = close_contour(tube.surface(), tube.chain(14, 2, 8), [&](double) { return ++calls < 1; });

@@ -10,7 +10,7 @@
 namespace mrc {
 namespace {
 
-/// A ring of points whose flow goes round once, with segments between some of them.
+/// A ring of points whose flow goes around once, with segments between some of them.
 class Levels : public testing::TestWithParam<unsigned> {
   protected:
     static constexpr int count = 40;
@@ -24,7 +24,7 @@ class Levels : public testing::TestWithParam<unsigned> {
         for (int i = 0; i < 3 * count; ++i) {
             const int a = static_cast<int>(random() % count), b = static_cast<int>(random() % count);
             if (a == b) continue;
-            // The shorter way round.
+            // The shorter path around.
             segments.push_back({a, b, -static_cast<int>(std::lround(values[b] - values[a])), -1, -1});
         }
     }

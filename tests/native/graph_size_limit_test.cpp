@@ -34,7 +34,7 @@ double most_triangles(int steiner, double (*free_bytes)()) {
     return fine;
 }
 
-TEST(Memory, MoreArcsThanAnIndexCountsAreRefusedHoweverMuchIsFree) {
+TEST(GraphSizeLimit, MoreArcsThanAnIndexCountsAreRefusedHoweverMuchIsFree) {
     for (const int steiner : {0, 2, 16}) {
         const double most = most_triangles(steiner, endless);
         EXPECT_EQ(refusal(0.999 * most, steiner, endless), "");
@@ -42,7 +42,7 @@ TEST(Memory, MoreArcsThanAnIndexCountsAreRefusedHoweverMuchIsFree) {
     }
 }
 
-TEST(Memory, MoreThanIsFreeIsRefusedWithTheEstimateAndWhatToLower) {
+TEST(GraphSizeLimit, MoreThanIsFreeIsRefusedWithTheEstimateAndWhatToLower) {
     for (const int steiner : {0, 2, 16}) {
         const double most = most_triangles(steiner, a_gigabyte);
         EXPECT_LT(most, 0.1 * most_triangles(steiner, endless));
@@ -52,7 +52,7 @@ TEST(Memory, MoreThanIsFreeIsRefusedWithTheEstimateAndWhatToLower) {
     }
 }
 
-TEST(Memory, ASmallSearchDoesNotAskTheSystem) { EXPECT_EQ(refusal(10000, 2, never_asked), ""); }
+TEST(GraphSizeLimit, ASmallSearchDoesNotAskTheSystem) { EXPECT_EQ(refusal(10000, 2, never_asked), ""); }
 
 }  // namespace
 }  // namespace mrc

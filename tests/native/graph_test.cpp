@@ -20,7 +20,7 @@ namespace {
 
 using mrc::Chord, mrc::ContourGraph, mrc::GraphPoint, mrc::Patch;
 
-/// A refined graph round a torus over a flow that rises in two steps of one half; in between it is flat but for noise.
+/// A refined graph around a torus over a flow that rises in two steps of one half; in between it is flat but for noise.
 class FlatFlow : public testing::TestWithParam<std::tuple<int, double>> {
   protected:
     const int steiner = std::get<0>(GetParam());
@@ -67,7 +67,7 @@ class FlatFlow : public testing::TestWithParam<std::tuple<int, double>> {
     }
 };
 
-/// Where a point lies on the way round a triangle: i at corner i, or -1.
+/// Where a point lies on the path around a triangle: i at corner i, or -1.
 double border_place(const std::array<int, 3>& corners, const mrc::SurfacePoint& p) {
     for (int i = 0; i < 3; ++i) {
         const int a = corners[i], b = corners[(i + 1) % 3];
@@ -107,7 +107,7 @@ PlacedChords chords_of(const ContourGraph& graph, const std::map<int, double>& p
     return chords;
 }
 
-/// True where a contour, which passes each level once, may hold first `a` and then, before it comes round again, `b`.
+/// True where a contour, which passes each level once, may hold first `a` and then, before it comes around again, `b`.
 bool may_follow(const ContourGraph& graph, const Chord& a, const Chord& b) {
     const GraphPoint &tail_a = graph.points[a.tail], &head_a = graph.points[a.head];
     const GraphPoint &tail_b = graph.points[b.tail], &head_b = graph.points[b.head];

@@ -17,7 +17,7 @@
 namespace mrc {
 namespace {
 
-/// The graph round a torus: closed or open, regular or refined.
+/// The graph around a torus: closed or open, regular or refined.
 class LineGraph : public testing::TestWithParam<std::tuple<bool, int>> {
   protected:
     const Surface surface = mrc_test::waisted_torus();

@@ -28,9 +28,9 @@ struct Mesh {
 
 /// Unit squares in the plane z = 0: vertex j * (columns + 1) + i lies at (i, j, 0).
 Mesh plate(int columns, int rows);
-/// Quads round the z axis, open at both ends: vertex row * around + i, row by row upwards.
+/// Quads around the z axis, open at both ends: vertex row * around + i, row by row upwards.
 Mesh tube(int around, int rows, double radius = 1.0, double step = 0.25);
-/// Quads round the z axis, rings of radius 3 and a tube of radius 1: vertex i * across + j, with j = 0 outermost.
+/// Quads around the z axis, rings of radius 3 and a tube of radius 1: vertex i * across + j, with j = 0 outermost.
 Mesh torus(int around, int across, double ring = 3.0, double tube = 1.0);
 /// Quads between two poles of triangles: the first and the last vertex.
 Mesh ball(int around, int rings, double radius = 1.0);

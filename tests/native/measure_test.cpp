@@ -20,7 +20,7 @@ class MeasureOf : public testing::Test {
     const Surface surface = hollow.surface();
     Options options;
 
-    /// Up and down by one row in turn, so that it follows the valley for half of its way.
+    /// Up and down by one row in turn, so that it follows the valley along half of its path.
     static Contour zigzag() {
         std::vector<int> vertices;
         for (int i = 0; i < around; ++i) {

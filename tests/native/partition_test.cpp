@@ -11,7 +11,7 @@
 namespace mrc {
 namespace {
 
-/// Rings round one tube, with their bands, in any order.
+/// Rings around one tube, with their bands, in any order.
 class Shared : public testing::Test {
   protected:
     static constexpr int around = 12, rows = 16;

@@ -14,13 +14,13 @@
 namespace mrc {
 namespace {
 
-/// Refined contours round a tube, through the edges between two rows.
+/// Refined contours around a tube, through the edges between two rows.
 class Snapped : public testing::Test {
   protected:
     static constexpr int around = 16, row = 3;
     const Surface surface = made::tube(around, 8).surface();
 
-    /// Through the upright edges at these shares of them, and through the diagonals between.
+    /// Through the upright edges at these fractions of them, and through the diagonals between.
     static Contour wave(const std::vector<double>& shares) {
         Contour contour;
         for (int i = 0; i < around; ++i) {
@@ -36,7 +36,7 @@ class Snapped : public testing::Test {
         for (double& share : shares) share = any(random);
         return shares;
     }
-    /// How often a closed chain goes round the axis.
+    /// How often a closed chain goes around the axis.
     double turns(const std::vector<int>& chain) const {
         double sum = 0.0;
         for (std::size_t i = 0; i < chain.size(); ++i) {

@@ -20,7 +20,7 @@ int next_of(const Curve& curve, size_t i) { return curve[(i + 1) % curve.size()]
 
 enum class Faces { quads, triangles, mixed };
 
-/// A torus of `around` x `across` cells: vertex i * across + j, the rows j run round the tube.
+/// A torus of `around` x `across` cells: vertex i * across + j, the rows j run around the tube.
 struct Torus {
     int around = 24;
     int across = 16;
@@ -83,7 +83,7 @@ struct Torus {
         return loop;
     }
 
-    /// A loop once round the long way that climbs and falls at random by up to `steep` rows a column.
+    /// A loop once around the long circumference that climbs and falls at random by up to `steep` rows a column.
     Curve jagged_loop(int steep, unsigned loop_seed) const {
         std::mt19937 random(loop_seed);
         std::vector<int> row(around + 1, across / 2);
@@ -315,7 +315,7 @@ void expect_flow_laws(const Case& c, const Flow& flow) {
     }
 }
 
-/// The increments along a curve are its edges' shares of its length.
+/// The increments along a curve are its edges' fractions of its length.
 void expect_arc_length(const Case& c, const Flow& flow, const Curve& curve) {
     double total = 0.0;
     for (size_t i = 0; i < c.edges(curve); ++i) total += c.length(curve, i);
@@ -348,7 +348,7 @@ void expect_all_laws(const Case& c, Options options) {
     }
 }
 
-TEST(Strips, LawsHoldRoundJaggedLoops) {
+TEST(Strips, LawsHoldAroundJaggedLoops) {
     int swallowed = 0, touching = 0;
     for (unsigned seed = 0; seed < 24; ++seed) {
         const Torus torus{.faces = seed % 2 ? Faces::quads : Faces::triangles, .jitter = 0.1 * (seed % 4), .seed = seed};
@@ -449,7 +449,7 @@ TEST(Strips, LawsHoldWhereNoFaceEntered) {
     }
 }
 
-TEST(Strips, LawsHoldRoundPlaneCuts) {
+TEST(Strips, LawsHoldAroundPlaneCuts) {
     int met = 0;
     for (unsigned seed = 0; seed < 12; ++seed) {
         const Torus torus{.around = 40, .across = 20, .jitter = 0.3, .seed = seed};
@@ -668,7 +668,7 @@ TEST(OpenBand, BoundariesRunFromEndToEnd) {
     }
 }
 
-TEST(OpenBand, WrapsRoundTheEnds) {
+TEST(OpenBand, WrapsAroundTheEnds) {
     for (const Faces faces : {Faces::quads, Faces::triangles}) {
         const Torus torus{.around = 40, .across = 24, .faces = faces};
         const Surface surface = torus.surface();
@@ -681,7 +681,7 @@ TEST(OpenBand, WrapsRoundTheEnds) {
     }
 }
 
-TEST(OpenStrips, LawsHoldRoundJaggedCurves) {
+TEST(OpenStrips, LawsHoldAroundJaggedCurves) {
     int swallowed = 0;
     size_t beyond = 0;
     for (unsigned seed = 0; seed < open_cases; ++seed) {

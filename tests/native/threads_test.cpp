@@ -63,7 +63,7 @@ class Bytes {
 /// Listens to the progress of one call, and notes what it must not do.
 class Listener {
   public:
-    /// `stop_at`: the share from which on it cancels.
+    /// `stop_at`: the fraction from which on it cancels.
     explicit Listener(double stop_at = 2.0) : stop_at_(stop_at) {}
 
     Progress progress() {
@@ -114,7 +114,7 @@ std::string all(const Surface& surface, int threads, double stop_at) {
     return (Bytes() << results << listener.verdict()).text;
 }
 
-/// Cancels in the middle of a search, where progress is asked for again at the same share, or at the end at the latest.
+/// Cancels in the middle of a search, where progress is asked for again at the same fraction, or at the end at the latest.
 std::string all_with_a_cancel_under_way(const Surface& surface, int threads) {
     double last = 0.0;
     const auto progress = [&last](double share) {

@@ -7,10 +7,10 @@ namespace mrc_test {
 
 inline constexpr int waists = 4;
 
-/// A torus of quads whose tube has waists, for contours round the tube to find.
+/// A torus of quads whose tube has waists, for contours around the tube to find.
 mrc::Surface waisted_torus();
 
-/// A jagged loop round the tube, two columns off a waist.
+/// A jagged loop around the tube, two columns off a waist.
 mrc::Contour loop_near(int waist);
 
 }  // namespace mrc_test

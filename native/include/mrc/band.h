@@ -9,11 +9,11 @@
 
 namespace mrc {
 
-/// The faces that a search starts with, and where each lies as one walks along the contour.
+/// The faces that a search starts with, and on which side of the contour each lies.
 struct BandFaces {
     std::vector<int> faces;  ///< ascending
-    /// Of each face: 1 left of the contour, -1 right of it. A face lies on the side from which the band reached it, so also a face
-    /// that touches the contour on both sides has one. 0: beyond an end of an open contour, where its two sides meet.
+    /// Of each face: 1 left of the contour, -1 right of it, 0 beyond an end of an open contour, where the two sides meet. A face
+    /// that touches the contour on both sides belongs to the side from which the band reached it.
     std::vector<int8_t> sides;
 };
 

@@ -12,7 +12,7 @@ namespace mrc {
 
 /// Principal curvatures at a vertex. Positive where the surface is convex; the unit is one over the mesh's unit of length.
 struct VertexCurvature {
-    double kappa_min = 0.0, kappa_max = 0.0;  ///< exactly 0 where below 1e-4 / h in size
+    double kappa_min = 0.0, kappa_max = 0.0;  ///< exactly 0 where smaller than 1e-4 / h in magnitude
     Vec3 direction_min = Vec3::Zero();        ///< unit, tangent; along a ridge it runs along the crest
     Vec3 direction_max = Vec3::Zero();        ///< unit, tangent; along a concave crease it runs along the crease
     Vec3 normal = Vec3::Zero();               ///< polygon normals weighted by corner angle, unit

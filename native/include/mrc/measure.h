@@ -10,7 +10,7 @@
 
 namespace mrc {
 
-/// What a contour costs (eq. 3.3). Lengths are in the mesh's unit, ratios in one over it.
+/// What a contour costs (eq. 3.3). Lengths are in the mesh's unit, ratios in its inverse.
 struct Measure {
     double ratio = 0.0;      ///< numerator over length
     double numerator = 0.0;  ///< sum of f over the contour's arcs
@@ -22,9 +22,9 @@ struct Measure {
     bool operator==(const Measure&) const = default;
 };
 
-/// The contour's ratio, without optimizing. Of the constraints, the attractors and the region term weigh.
-/// `progress` is called every few milliseconds; where it cancels, all is 0.
-/// @throws InvalidInput and TooLarge as `optimize` does; barriers do not matter.
+/// The contour's ratio, without optimizing. Of the constraints, only the attractors and the region density count.
+/// `progress` is called every few milliseconds; where it cancels, all values are 0.
+/// @throws InvalidInput and TooLarge as `optimize` does, except for barriers.
 Measure measure(const Surface& surface, const Contour& contour, const Options& options = {}, const Constraints& constraints = {},
                 const std::optional<Scales>& scales = std::nullopt, const Progress& progress = {});
 

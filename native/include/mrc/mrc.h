@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// All that a user of the library calls.
 ///
-/// Threads: every function may be called by several threads at once, also with the same arguments, which it only reads. Const member
-/// functions are as safe. A progress function is called on the thread that made the call.
+/// Threads: several threads may call any function at once, also with the same arguments, which are only read. The same holds for
+/// const member functions. A progress function is called on the thread that made the call.
 #pragma once
 
 #include <mrc/band.h>

@@ -6,7 +6,7 @@
 
 namespace mrc {
 
-/// How far along the contour a point lies (4.2.3); see `make_flow`.
+/// How the flow is computed, which says how far along the contour each point of the band lies (4.2.3).
 enum class FlowKind { gates, arc_length, harmonic };
 /// What contours follow: concave creases, or crests (3.4, footnote).
 enum class Feature { valley, ridge };
@@ -18,31 +18,31 @@ enum class Ends { edges, vertices, border };
 enum class LengthMeasure { arc, edges };
 enum class Denominator { length, arcs };
 
-/// All settings of the method; each stage reads its own. Sections are those of Clements 2006. h, K and L0 are those of `Scales`.
+/// All settings of the method; each stage reads those it needs. Sections are those of Clements 2006. h, K and L0 are those of `Scales`.
 struct Options {
     // band, 4.2.1
-    /// Rings of faces to each side, at least 1; none: until topology stops the band, and what is refined then works in a band of the
-    /// default width around the regular result.
+    /// Rings of faces on each side, at least 1. None: the band grows until topology stops it, and iterations with refinement then
+    /// search a band of the default width around the regular result.
     std::optional<int> width = 4;
-    /// Besides, from the third ring on, only polygons all of whose vertices lie within this distance of the iteration's start, in
-    /// average radii of the contour's connected component.
+    /// A further limit from the third ring on: all vertices of a polygon must lie within this distance of the contour that the
+    /// iteration starts from. In average radii of the contour's connected component; none: no limit.
     std::optional<double> band_distance;
     // curvature, 3.4
     double curvature_radius = 1.6;     ///< of the disk B, in h, above 0
     double curvature_smoothing = 1.0;  ///< sigma of the tensor's Gaussian, in h; 0: no smoothing
     // flow, 4.2.3
-    FlowKind flow = FlowKind::harmonic;  ///< the best measured: it depends on no starting line
+    FlowKind flow = FlowKind::harmonic;  ///< gave the best results; needs no starting line
     // energy, 3.4
     double kappa0_factor = 3.0;       ///< kappa_0 over K, above 0
-    double feature_exponent = 1.0;    ///< a: K |kappa / K|^a in the place of |kappa|
-    double direction_exponent = 1.0;  ///< b: sign(c) |c|^b in the place of a cosine c
+    double feature_exponent = 1.0;    ///< a: K |kappa / K|^a instead of |kappa|
+    double direction_exponent = 1.0;  ///< b: sign(c) |c|^b instead of a cosine c
     Feature feature = Feature::valley;
     double max_turn = std::numbers::pi / 2;  ///< radians in the tangent plane; arcs that turn more are pruned
-    double anchor = 0.0;  ///< in K, 0 or more: holds the contour near the given one: a far feature must be worth the distance
-    std::optional<double> feature_clamp;  ///< quantile in (0, 1) of the negative kappa_min at which their size is cut off
-    double crease = 0.0;                  ///< in K, 0 or more: pull of crisp creases, seen at their own edges
+    double anchor = 0.0;                  ///< in K, 0 or more: holds the contour near the given one: far features must be worth it
+    std::optional<double> feature_clamp;  ///< in (0, 1): the quantile of the negative kappa_min at which their size is cut off
+    double crease = 0.0;                  ///< in K, 0 or more: how strongly sharp concave edges pull contours onto themselves
     // region term, 6.1.2
-    double region_weight = 0.0;                 ///< of the change of the enclosed density, in K / L0
+    double region_weight = 0.0;                 ///< weight of the change of the enclosed density, in K / L0
     RegionSide region_side = RegionSide::left;  ///< which side of the given direction counts as enclosed
     // length bias, 6.1.1
     double length_bias = 0.0;   ///< beta: weight of length / L0 beside ratio / K
@@ -53,10 +53,10 @@ struct Options {
     // refinement, 3.2, and iteration, 5.3 and 5.6
     int refinement = 0;          ///< k, the Steiner points put on each edge; 0: contours keep to mesh edges
     int regular_iterations = 0;  ///< iterations along mesh edges first
-    int iterations = 1;          ///< then with `refinement`; each kind ends early where nothing moves
+    int iterations = 1;          ///< iterations with `refinement` after these; both kinds end early where nothing moves
     /// Where the best found has less salience than this, there is nothing concave to find and the given contour stays.
     std::optional<double> min_salience;
-    int threads = 0;  ///< on which several contours are optimized; 0: as many as the machine has; no result depends on it
+    int threads = 0;  ///< that optimize several contours; 0: as many as the machine has; no result depends on it
 
     /// The settings whose contours lie closest to where people draw part boundaries; the defaults above are those of the thesis.
     static Options recommended();

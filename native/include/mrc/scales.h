@@ -13,8 +13,8 @@ struct Scales {
     double K = 0.0;        ///< area-weighted mean of |kappa_min| over those vertices (ridge: |kappa_max|), at least 0.01 / L0
     double kappa_0 = 0.0;  ///< eq. 3.2's constant: kappa0_factor K
     double L0 = 0.0;       ///< length of the contour
-    double clamp = std::numeric_limits<double>::infinity();  ///< |kappa_min| (ridge: |kappa_max|) of features is cut off here
-    int n0 = 0;                                              ///< its number of arcs, with the run's Steiner points
+    double clamp = std::numeric_limits<double>::infinity();  ///< where |kappa_min| (ridge: |kappa_max|) of features is cut off
+    int n0 = 0;                                              ///< its number of arcs, with the search's Steiner points
     Contour given;                                           ///< the contour itself
 
     bool operator==(const Scales&) const = default;

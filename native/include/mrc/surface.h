@@ -17,7 +17,7 @@ struct SurfaceArrays {
     std::span<const double> positions;       ///< x, y, z of each vertex
     std::span<const int32_t> face_offsets;   ///< one more than there are faces; empty: every face is a triangle
     std::span<const int32_t> face_vertices;  ///< face i is face_vertices[face_offsets[i] .. face_offsets[i + 1])
-    std::span<const int32_t> triangles;      ///< n - 2 vertex triples for a face of n, in face order; empty: made here
+    std::span<const int32_t> triangles;      ///< n - 2 vertex triples for a face of n, in face order; empty: the surface makes them
     std::span<const int32_t> hidden_faces;   ///< ids of faces that no band enters
 };
 
@@ -32,8 +32,8 @@ enum class EdgeKind { real, any };
 ///
 /// Several threads may use a surface and its copies at once: nothing that they see changes after the constructor.
 ///
-/// @throws InvalidInput for indices out of range, positions that are not finite or beyond 1e50, faces with fewer than three or with
-/// repeated vertices, and triangles that are no triangulation of their faces. The message names the elements.
+/// @throws InvalidInput for indices out of range, positions that are not finite or beyond 1e50, faces with fewer than three or
+/// with repeated vertices, and triangles that do not triangulate their faces. The message names the elements.
 class Surface {
   public:
     static constexpr int border = -1;     ///< twin of a half-edge with no other face
@@ -84,11 +84,11 @@ class Surface {
     /// True where a and b are the ends of a real edge, in whichever direction its faces run.
     bool real_edge(int a, int b) const { return find_edge(a, b) >= 0; }
 
-    /// The area-weighted mean distance of the face centroids of a vertex's connected component from their centroid. The first call
-    /// makes it for all components, also where several threads call it at once.
+    /// The area-weighted mean distance of the face centroids of a vertex's connected component from the component's centroid. The
+    /// first call computes it for all components; several threads may call it at once.
     double average_radius(int vertex) const;
 
-    /// Calls visit(neighbor, edge) for the real edges at a vertex; an irregular edge may come more than once.
+    /// Calls visit(neighbor, edge) for the real edges at a vertex; an irregular edge may be visited more than once.
     template <class Visit>
     void for_each_real_edge(int vertex, Visit&& visit) const {
         for (const int h : outgoing(vertex)) {

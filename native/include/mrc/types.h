@@ -11,7 +11,7 @@ namespace mrc {
 
 using Vec3 = Eigen::Vector3d;
 
-inline constexpr int no_element = -1;  ///< in the place of an id: there is none
+inline constexpr int no_element = -1;  ///< instead of an id: there is none
 
 /// The point (1 - t) a + t b of the mesh edge ab; a vertex v is (v, v, 0).
 struct SurfacePoint {
