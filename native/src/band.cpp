@@ -42,8 +42,8 @@ class PolygonHalfedges {
     }
 };
 
-/// The order in which polygons compete: of distance, rounded so that equal ones stay equal under rounding; then of position. Gives
-/// the place of each.
+/// The order in which polygons compete: of distance, rounded so that equal ones stay equal under rounding; then of position.
+/// Gives the place of each.
 std::vector<int> polygon_ranks(const Patch& patch, const PolygonHalfedges& sides, const Beat& beat) {
     double length = 0.0;
     for (const int h : contour_halfedges(patch)) length += patch.mesh.calc_edge_length(Halfedge(h));

@@ -56,8 +56,8 @@ void BandFront::pass(std::span<const int> sides, const Chain& chain) {
     }
 }
 
-/// Left fronts run along with the contour, right ones against it; those of an open curve begin and end at its ends, which no polygon
-/// of one side alone can enclose.
+/// Left fronts run along with the contour, right ones against it; those of an open curve begin and end at its ends, which no
+/// polygon of one side alone can enclose.
 std::vector<int> BandFront::boundary(Side side, const std::vector<int>& last) const {
     const int start = start_of(side, last);
     if (start < 0) return {};

@@ -15,7 +15,8 @@ struct Chain {
     bool mixed = false;  ///< has edges of both sides' fronts
 };
 
-/// The boundary of the growing band: the half-edges of outer polygons whose other side is in the band, with their side of the contour.
+/// The boundary of the growing band: the half-edges of outer polygons whose other side is in the band, with their side of the
+/// contour.
 class BandFront {
   public:
     /// `barrier`: of each patch edge, true where no band grows across.

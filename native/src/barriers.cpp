@@ -36,7 +36,8 @@ double place_in_fan(const Surface& surface, const std::vector<int>& fan, const S
     return -1.0;
 }
 
-/// A contour crosses the barriers where, at a point or along a run of points on them, some leave to its left and some to its right.
+/// A contour crosses the barriers where, at a point or along a run of points on them, some leave to its left and some to its
+/// right.
 class BarrierCheck {
   public:
     BarrierCheck(const Surface& surface, const Contour& contour, const Constraints& constraints)

@@ -150,9 +150,9 @@ class ClosingSearch {
     std::unordered_map<int, Place> places_;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 
-    /// After Lee et al.: a distance function times a normal function, each 1 far away and on the limb's other side, times a feature
-    /// function, which falls from 1 where nothing is concave to 0.2. Its unit is half the chain's length, so that scale does not
-    /// matter.
+    /// After Lee et al.: a distance function times a normal function, each 1 far away and on the limb's other side, times a
+    /// feature function, which falls from 1 where nothing is concave to 0.2. Its unit is half the chain's length, so that scale
+    /// does not matter.
     Place make_place(int vertex) const {
         Place place;
         const VertexCurvature& curvature = curvature_.at(vertex);

@@ -117,9 +117,9 @@ class NearGraph {
 /// Searches for short distances, one after the other in the same memory.
 class NearSearch {
   public:
-    /// The vertices within `limit` of the start, which is nearest to itself. The distances are corrected until none falls any more,
-    /// which over so few edges of like lengths takes less time than a heap. `expand` is called for a vertex before its links are
-    /// read.
+    /// The vertices within `limit` of the start, which is nearest to itself. The distances are corrected until none falls any
+    /// more, which over so few edges of like lengths takes less time than a heap. `expand` is called for a vertex before its
+    /// links are read.
     template <class Expand>
     std::span<const int> run(const NearGraph& graph, std::span<const int> starts, double limit, Expand&& expand) {
         ++search_;

@@ -92,8 +92,8 @@ bool DiskTensors::cut(int edge, const Vec3& center, Symmetric& sum) {
     return true;
 }
 
-/// The area of the triangle inside the ball: straight pieces of its sides, and arcs of the circle in its plane that join them, all
-/// turning left around the area.
+/// The area of the triangle inside the ball: straight pieces of its sides, and arcs of the circle in its plane that join them,
+/// all turning left around the area.
 double DiskTensors::area_inside(const Triangle& t, const Vec3& center) const {
     if (t.doubled_area == 0.0) return 0.0;
     const Vec3 away = center - t.origin;

@@ -133,8 +133,8 @@ class Energy {
 /// The same curve with the k Steiner points that it passes along edges among its points.
 Contour expressed(const Contour& contour, int steiner);
 
-/// Eq. 3.3 for a contour, expressed with the run's k, as the graph weighs it. @throws InvalidInput where the contour has length 0.
-/// `enclosed`: the change of the region term's integral since the first given contour.
+/// Eq. 3.3 for a contour, expressed with the run's k, as the graph weighs it. @throws InvalidInput where the contour has length
+/// 0. `enclosed`: the change of the region term's integral since the first given contour.
 Measure measure(const Surface& surface, const Energy& energy, const Contour& contour, int steiner, double enclosed = 0.0);
 
 }  // namespace mrc

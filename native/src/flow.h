@@ -30,8 +30,8 @@ Flow make_flow(const Patch& patch, const Band& band, const Options& options, con
 std::vector<int> border_piece(const Patch& patch, const Band& band, int vertex);
 
 /// The strip boundaries of 4.2.3 from the rightmost to the leftmost: the contour, the boundaries of every round, and the refined
-/// strips between them that cover the vertices left over. Closed lists of patch vertices, or open ones from the first vertex of an
-/// open curve to its last; neighbors may share vertices but never cross. Every vertex of the band lies on at least one, except
+/// strips between them that cover the vertices left over. Closed lists of patch vertices, or open ones from the first vertex of
+/// an open curve to its last; neighbors may share vertices but never cross. Every vertex of the band lies on at least one, except
 /// those that only the band's end polygons hold.
 std::vector<Curve> strip_boundaries(const Patch& patch, const Band& band);
 

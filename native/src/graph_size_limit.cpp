@@ -33,8 +33,8 @@ double free_bytes() {
 
 }  // namespace
 
-// A triangle has 3 k^2 + 3 k chords inside and k + 1 on each side, which two triangles share (3.2); each is a node once. Arcs a node
-// were counted on real bands: about 2 for k = 0 and one more for each further k.
+// A triangle has 3 k^2 + 3 k chords inside and k + 1 on each side, which two triangles share (3.2); each is a node once. Arcs a
+// node were counted on real bands: about 2 for k = 0 and one more for each further k.
 void check_graph_size(double triangles, int steiner, double (*free_bytes)()) {
     const double k = steiner;
     const double nodes = triangles * (3.0 * k * k + 4.5 * k + 1.5), arcs = nodes * (2.0 + 1.25 * k);

@@ -10,16 +10,17 @@
 
 namespace mrc {
 
-/// The search for paths above the lower hull, one by one: labels are partial paths, extended backwards from a destination as long as
-/// the bounds of all passes allow them to beat the best.
+/// The search for paths above the lower hull, one by one: labels are partial paths, extended backwards from a destination as long
+/// as the bounds of all passes allow them to beat the best.
 ///
-/// Where all arcs have length 1, lengths are counts, and of the partial paths from a node with the same count only the best matters.
-/// That is Karp's recurrence [7] (A.3), kept to what the passes allow.
+/// Where all arcs have length 1, lengths are counts, and of the partial paths from a node with the same count only the best
+/// matters. That is Karp's recurrence [7] (A.3), kept to what the passes allow.
 class LabelSearch {
   public:
     LabelSearch(const WeightedGraph& graph, const RatioOptions& options, Incumbent& incumbent, Lens& lens);
 
-    /// Offers the incumbent what is better on a path from any of these sources to any of these destinations. A pair has no potential.
+    /// Offers the incumbent what is better on a path from any of these sources to any of these destinations. A pair has no
+    /// potential.
     void run(const std::vector<int>& sources, const std::vector<int>& destinations, const std::vector<Pass>& passes);
 
     /// Partial paths met so far.

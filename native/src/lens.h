@@ -9,14 +9,14 @@
 
 namespace mrc {
 
-/// With a bias, the optimum of a pair may lie above its lower hull in the plane of L and F: in the convex lens between h, the curve of
-/// paths as good as the best, and the lines below which the passes at several lambdas found no path.
+/// With a bias, the optimum of a pair may lie above its lower hull in the plane of L and F: in the convex lens between h, the
+/// curve of paths as good as the best, and the lines below which the passes at several lambdas found no path.
 class Lens {
   public:
     explicit Lens(const Incumbent& incumbent) : incumbent_(incumbent) {}
 
-    /// True where some path that ends as `rest` does, from its node on, may beat the best: where a part of h lies above all passes'
-    /// lines, lowered by a potential.
+    /// True where some path that ends as `rest` does, from its node on, may beat the best: where a part of h lies above all
+    /// passes' lines, lowered by a potential.
     bool is_open(const std::vector<Pass>& passes, const Terminal& rest, double potential = 0.0);
 
   private:

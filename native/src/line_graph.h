@@ -27,8 +27,8 @@ struct Chords {
     const RequiredElements& required_elements;
 };
 
-/// The line graph of 3.1: chords are its nodes, and an arc joins each to those that start where it ends, weighed by eq. 3.1 and 3.2.
-/// Chords that cross the level come twice, first as sources and last as destinations.
+/// The line graph of 3.1: chords are its nodes, and an arc joins each to those that start where it ends, weighed by eq. 3.1 and
+/// 3.2. Chords that cross the level come twice, first as sources and last as destinations.
 WeightedGraph make_line_graph(const Surface& surface, const Chords& chords, const Energy& energy, const EdgeForm* region,
                               const Beat& beat);
 

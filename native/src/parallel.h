@@ -21,7 +21,8 @@ struct Joined {
 };
 
 /// Calls task(i) for every i from 0 up to count, on `threads` threads; 0: as many as the machine has. All tasks are done when it
-/// returns; of what they throw, the exception of the lowest i is thrown here. While the calling thread waits, it calls idle() often.
+/// returns; of what they throw, the exception of the lowest i is thrown here. While the calling thread waits, it calls idle()
+/// often.
 template <class Task, class Idle>
 void parallel_for(int count, int threads, Task&& task, Idle&& idle) {
     const int wanted = threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency());

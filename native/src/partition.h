@@ -14,10 +14,10 @@ namespace mrc {
 
 /// Divides a surface among contours that move at the same time, so that none can cross or touch another (1.4).
 ///
-/// A polygon belongs to the contour that runs through it, or else to the nearest of those whose patches hold it, by the sum of its
-/// vertices' distances; in a tie to none. So two bands have at most vertices and edges in common, and these are closed to both. A
-/// contour's own points, as first given and as it lies now, are open to it and closed to all others, so that it can always stay or
-/// go back. Nothing here depends on the order of the contours.
+/// A polygon belongs to the contour that runs through it, or else to the nearest of those whose patches hold it, by the sum of
+/// its vertices' distances; in a tie to none. So two bands have at most vertices and edges in common, and these are closed to
+/// both. A contour's own points, as first given and as it lies now, are open to it and closed to all others, so that it can
+/// always stay or go back. Nothing here depends on the order of the contours.
 class Partition {
   public:
     explicit Partition(const Surface& surface) : surface_(surface) {}

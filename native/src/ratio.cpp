@@ -73,8 +73,8 @@ class BranchAndBound {
     Relaxation& relaxation_;
     std::vector<int> hulls_;
 
-    /// Improves the best as long as the set shows a better path of one of its own pairs, and potentials as long as that may rule out
-    /// pairs; gives the pairs still undecided.
+    /// Improves the best as long as the set shows a better path of one of its own pairs, and potentials as long as that may rule
+    /// out pairs; gives the pairs still undecided.
     std::vector<int> descend(std::vector<int> set) {
         if (set.size() == 1) relaxation_.clear_potential(set[0]);
         for (int laps = 0;;) {
@@ -127,8 +127,8 @@ class BranchAndBound {
     }
 };
 
-/// Decides the pairs whose optimum may lie above their lower hull: more lambdas cut off what they can of the lens between hull and
-/// best, of a set of pairs at once and then of its halves; what stays open of a single pair is searched by labels.
+/// Decides the pairs whose optimum may lie above their lower hull: more lambdas cut off what they can of the lens between hull
+/// and best, of a set of pairs at once and then of its halves; what stays open of a single pair is searched by labels.
 class HullSweep {
   public:
     HullSweep(const WeightedGraph& graph, const RatioOptions& options, Incumbent& incumbent, Relaxation& relaxation)
@@ -164,8 +164,8 @@ class HullSweep {
     Lens lens_;
     LabelSearch label_search_;
 
-    /// Passes at the slope of the best and at so many lambdas on either side, until none leaves a lens open; gives the destinations
-    /// of those that it leaves.
+    /// Passes at the slope of the best and at so many lambdas on either side, until none leaves a lens open; gives the
+    /// destinations of those that it leaves.
     std::vector<int> narrow(const std::vector<int>& set, int sides, std::vector<Pass>& passes) {
         std::vector<int> ends = graph_.matched ? set : first_numbers(graph_.destinations.size());
         cut(set, 0.0, ends, passes);

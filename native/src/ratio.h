@@ -31,8 +31,8 @@ struct RatioOptions {
     Objective objective;
     /// A path like this is expected: it sets where the search begins, and nothing else.
     std::optional<Terminal> guess = {};
-    /// The search for paths above the lower hull gives up after so many labels, and reports the gap that is left; where lengths are
-    /// counts it never needs to (A.3).
+    /// The search for paths above the lower hull gives up after so many labels, and reports the gap that is left; where lengths
+    /// are counts it never needs to (A.3).
     int most_labels = 1'000'000;
     Beat beat = {};  ///< called at every pass and every few labels
 };
@@ -50,11 +50,11 @@ struct RatioResult {
 
 /// The path of least objective over all source and destination pairs, exactly.
 ///
-/// Dinkelbach's descent on lambda with one incumbent for all sources, and branch and bound over the set of sources: one relaxation
-/// from a set of sources at once bounds every pair of the set from below. A pair whose bound is not below the threshold at the
-/// current lambda is out for good, since the best only improves. Potentials at the sources tighten the bounds of what is left; a set
-/// that they do not decide is split. With a bias the optimum of a pair may lie above its lower hull: then the partial paths whose
-/// bounds beat the best are searched one by one.
+/// Dinkelbach's descent on lambda with one incumbent for all sources, and branch and bound over the set of sources: one
+/// relaxation from a set of sources at once bounds every pair of the set from below. A pair whose bound is not below the
+/// threshold at the current lambda is out for good, since the best only improves. Potentials at the sources tighten the bounds of
+/// what is left; a set that they do not decide is split. With a bias the optimum of a pair may lie above its lower hull: then the
+/// partial paths whose bounds beat the best are searched one by one.
 RatioResult minimum_ratio(const WeightedGraph& graph, const RatioOptions& options = {});
 
 }  // namespace mrc

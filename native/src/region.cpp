@@ -22,8 +22,8 @@ double triangle_area(const Surface& surface, int triangle) {
     return 0.5 * (surface.position(v[1]) - surface.position(v[0])).cross(surface.position(v[2]) - surface.position(v[0])).norm();
 }
 
-/// The integral of the density over a triangle. The polygon's area, which no triangulation changes, is divided among its triangles
-/// in proportion to theirs.
+/// The integral of the density over a triangle. The polygon's area, which no triangulation changes, is divided among its
+/// triangles in proportion to theirs.
 double content(const Surface& surface, std::span<const double> density, int triangle) {
     const int face = surface.triangle_face(triangle);
     double sum = 0.0;
@@ -72,8 +72,8 @@ EdgeForm gather(const Surface& surface, const Tree& tree, std::span<const double
     return form;
 }
 
-/// Of triangles in the order of their distance from two contours, one that moving the first contour into the second does not pass:
-/// the last at the border of the mesh, which no band encloses; without a border, the last of all.
+/// Of triangles in the order of their distance from two contours, one that moving the first contour into the second does not
+/// pass: the last at the border of the mesh, which no band encloses; without a border, the last of all.
 int outer_triangle(const Surface& surface, const std::vector<int>& triangles) {
     const auto at_border = [&](int t) {
         return surface.twin(3 * t) == Surface::border || surface.twin(3 * t + 1) == Surface::border ||

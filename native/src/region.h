@@ -31,17 +31,17 @@ class EdgeForm {
     }
 };
 
-/// The region term of 6.1.2 by discrete Stokes: a form whose circulation around each face of the band is the face's density times its
-/// area, so that along a closed contour it gives, up to a constant, what the contour encloses on its left. The constant is a
+/// The region term of 6.1.2 by discrete Stokes: a form whose circulation around each face of the band is the face's density times
+/// its area, so that along a closed contour it gives, up to a constant, what the contour encloses on its left. The constant is a
 /// multiple of the flow, which every contour of the band passes once.
 ///
-/// `density`: of each surface face, per area. `reached`: what the integral along the patch's given contour is to be: the change of
-/// the enclosed integral since the first given contour.
+/// `density`: of each surface face, per area. `reached`: what the integral along the patch's given contour is to be: the change
+/// of the enclosed integral since the first given contour.
 EdgeForm region_form(const Surface& surface, const Patch& patch, const Band& band, const Flow& flow,
                      std::span<const double> density, double reached, const Beat& beat = {});
 
-/// The change of the integral of a density that a contour encloses on its left, from one closed contour to another that can be moved
-/// into it. What it passes holds no border of the mesh; on a mesh without one it does not hold the face farthest from both.
+/// The change of the integral of a density that a contour encloses on its left, from one closed contour to another that can be
+/// moved into it. What it passes holds no border of the mesh; on a mesh without one it does not hold the face farthest from both.
 double enclosed_change(const Surface& surface, std::span<const double> density, const Contour& from, const Contour& to,
                        const Beat& beat = {});
 

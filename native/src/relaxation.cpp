@@ -7,8 +7,8 @@
 namespace mrc {
 namespace {
 
-/// The best path to node n: along one of its arcs or, with value `best`, from the source `start`. The solver spends most of its time
-/// here, so the compiler must be able to inline it.
+/// The best path to node n: along one of its arcs or, with value `best`, from the source `start`. The solver spends most of its
+/// time here, so the compiler must be able to inline it.
 void relax_node(const WeightedGraph& graph, int n, double best, int start, Pass& pass) {
     int arc = -1;
     for (int a = graph.first_arc[n]; a < graph.first_arc[n + 1]; ++a) {
@@ -66,9 +66,9 @@ Path Relaxation::path_to(int destination) const {
     return path;
 }
 
-/// Potentials under which no path at all undercuts the threshold are shortest distances where each lap costs the threshold less: a
-/// source starts where the last lap left its destination. They exist where no closed walk of several laps is too cheap; such a walk
-/// crosses itself, and laps that exchange their ends where they cross are contours of their own.
+/// Potentials under which no path at all undercuts the threshold are shortest distances where each lap costs the threshold less:
+/// a source starts where the last lap left its destination. They exist where no closed walk of several laps is too cheap; such a
+/// walk crosses itself, and laps that exchange their ends where they cross are contours of their own.
 bool Relaxation::lower_potentials(const std::vector<int>& pairs, double threshold) {
     bool lowered = false;
     for (const int i : pairs) {

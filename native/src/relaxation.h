@@ -21,8 +21,8 @@ struct Pass {
 
 /// Bellman's relaxation [9], which is linear in topological order, with a potential for each pair of source and destination.
 ///
-/// What goes from one pair's source to another pair's destination bounds both, though neither may go there. A potential, added at a
-/// pair's source and taken off at its destination, leaves the pair's own paths as they are and moves those between pairs.
+/// What goes from one pair's source to another pair's destination bounds both, though neither may go there. A potential, added at
+/// a pair's source and taken off at its destination, leaves the pair's own paths as they are and moves those between pairs.
 class Relaxation {
   public:
     Relaxation(const WeightedGraph& graph, const Beat& beat);

@@ -13,8 +13,8 @@ inline RequiredElements::Place place_of(const std::vector<GraphPoint>& points, i
     return {points[point].level, points[point].rank, point};
 }
 
-/// Deletes the chords that no contour through the required elements can hold (4.4), among which are an open curve's first and last
-/// edge where these are held. Gives the elements, which also rule out arcs.
+/// Deletes the chords that no contour through the required elements can hold (4.4), among which are an open curve's first and
+/// last edge where these are held. Gives the elements, which also rule out arcs.
 /// @throws InvalidInput for elements that no contour of the band can hold.
 RequiredElements keep_required_chords(const GraphInput& input, const std::vector<GraphPoint>& points,
                                       std::vector<DirectedSegment>& directed);

@@ -8,8 +8,8 @@
 
 namespace mrc {
 
-/// Eigen's SimplicialLDLT, number for number, but that the beat is called between the columns: on large bands the factorization is
-/// the longest of all stages. The ordering of the columns before it is one call of Eigen's without a beat.
+/// Eigen's SimplicialLDLT, number for number, but that the beat is called between the columns: on large bands the factorization
+/// is the longest of all stages. The ordering of the columns before it is one call of Eigen's without a beat.
 class SparseCholesky : public Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> {
   public:
     SparseCholesky(const Eigen::SparseMatrix<double>& matrix, const Beat& beat);

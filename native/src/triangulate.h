@@ -13,15 +13,16 @@
 
 namespace mrc {
 
-/// Cuts polygons into triangles, given as triples of corner numbers with the polygon's winding. Only the corners' positions count,
-/// so that equal polygons are cut alike wherever they lie in a mesh. One object serves many polygons and reuses its memory.
+/// Cuts polygons into triangles, given as triples of corner numbers with the polygon's winding. Only the corners' positions
+/// count, so that equal polygons are cut alike wherever they lie in a mesh. One object serves many polygons and reuses its
+/// memory.
 class Triangulator {
   public:
     /// The n - 2 triangles of a polygon of n corners; valid until the next call. Of a triangle, no corner need be given.
     ///
-    /// Quads are cut along the diagonal inside them (in the plane of Newell's normal), convex ones along the shorter, and at a tie
-    /// at the first corner. Larger polygons are cut by clipping ears; where a polygon, or what is left of one, has no ear because
-    /// it is degenerate, it becomes a fan.
+    /// Quads are cut along the diagonal inside them (in the plane of Newell's normal), convex ones along the shorter, and at a
+    /// tie at the first corner. Larger polygons are cut by clipping ears; where a polygon, or what is left of one, has no ear
+    /// because it is degenerate, it becomes a fan.
     std::span<const std::array<int, 3>> operator()(std::span<const Vec3> corners);
 
   private:
@@ -41,13 +42,14 @@ class Triangulator {
 /// serves many polygons and reuses its memory.
 ///
 /// A triangulation is n - 2 triangles that hold each of the n sides once, in the polygon's direction, and every other edge twice,
-/// in opposite directions. That suffices: they form a surface with the polygon as its one border and Euler characteristic 1, which
-/// is a disk.
+/// in opposite directions. That suffices: they form a surface with the polygon as its one border and Euler characteristic 1,
+/// which is a disk.
 class PolygonSides {
   public:
     explicit PolygonSides(int vertex_count) : vertex_count_(vertex_count) {}
 
-    /// Reads the n - 2 triangles of a polygon, of which the first has the given id. False: they are no triangulation, see fault().
+    /// Reads the n - 2 triangles of a polygon, of which the first has the given id. False: they are no triangulation, see
+    /// fault().
     bool read(std::span<const int> polygon, std::span<const std::array<int, 3>> triangles, int first_triangle);
 
     /// Calls visit(a, b) for the two half-edges of each diagonal of the polygon read last, a < b.

@@ -89,7 +89,8 @@ struct Task {
 /// Optimizes several contours of one mesh, which never cross or touch each other where the given ones did not (1.4).
 ///
 /// They move together, iteration by iteration: each searches the faces that are nearer to it than to any other contour, and what
-/// two bands have in common is closed to both. The results have the order of the tasks, but depend neither on it nor on the number of threads.
+/// two bands have in common is closed to both. The results have the order of the tasks, but depend neither on it nor on the
+/// number of threads.
 /// @throws what `optimize` throws, for the first contour in error. The error holds the contour's place in the list; where there
 /// are several contours, the message begins with it.
 std::vector<Result> optimize_all(const Surface& surface, std::span<const Task> tasks, const Options& options = {},
@@ -101,8 +102,8 @@ using Outcome = std::variant<Result, InvalidInput>;
 /// As `optimize_all`, but a contour in error gets its error, which holds its place, and the others are optimized all the same.
 ///
 /// A contour that is refused before any search stays where it is, and its real edges are barriers for all others. A contour that
-/// already crosses them is returned unchanged; where the refused contour crosses faces, others may cross it. A contour whose search
-/// fails returns to its given place, which all others avoid from the start. Without errors the results are those of
+/// already crosses them is returned unchanged; where the refused contour crosses faces, others may cross it. A contour whose
+/// search fails returns to its given place, which all others avoid from the start. Without errors the results are those of
 /// `optimize_all`.
 /// @throws InvalidInput for options out of range only.
 std::vector<Outcome> optimize_each(const Surface& surface, std::span<const Task> tasks, const Options& options = {},

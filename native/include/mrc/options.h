@@ -11,14 +11,15 @@ enum class FlowKind { gates, arc_length, harmonic };
 /// What contours follow: concave creases, or crests (3.4, footnote).
 enum class Feature { valley, ridge };
 enum class RegionSide { left, right };
-/// What is held at the ends of an open curve (4.6): the first and the last edge, their end vertices, or these except where they lie
-/// on the mesh border, along which they slide.
+/// What is held at the ends of an open curve (4.6): the first and the last edge, their end vertices, or these except where they
+/// lie on the mesh border, along which they slide.
 enum class Ends { edges, vertices, border };
 /// What length_bias counts, and what the ratio divides by: lengths, or numbers of edges (appendix A).
 enum class LengthMeasure { arc, edges };
 enum class Denominator { length, arcs };
 
-/// All settings of the method; each stage reads those it needs. Sections are those of Clements 2006. h, K and L0 are those of `Scales`.
+/// All settings of the method; each stage reads those it needs. Sections are those of Clements 2006. h, K and L0 are those of
+/// `Scales`.
 struct Options {
     // band, 4.2.1
     /// Rings of faces on each side, at least 1. None: the band grows until topology stops it, and iterations with refinement then
