@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The examples in the documentation run and do what they say, and its links lead somewhere. Examples for Blender are
-run by tests/blender."""
+"""The examples in the documentation run and do what they say, its links lead somewhere, and the files that it names
+exist. Examples for Blender are run by tests/blender."""
 
 import re
 from pathlib import Path
@@ -103,6 +103,23 @@ def test_links_lead_somewhere(page):
     text = re.sub(r"```.*?```", "", page.read_text(encoding="utf-8"), flags=re.DOTALL)
     relative = [link for link in re.findall(r"\]\(([^)]+)\)", text) if "://" not in link]
     assert [link for link in relative if not leads_somewhere(page, link)] == []
+
+
+def files():
+    """The paths of the tree's files, each with a slash before it."""
+    listed = [path for folder in FOLDERS for path in (ROOT / folder).rglob("*")]
+    return [f"/{name(path)}" for path in [*listed, *ROOT.glob("*")] if path.is_file()]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name)
+def test_files_that_a_page_names_exist(page):
+    text = re.sub(r"```.*?```", "", page.read_text(encoding="utf-8"), flags=re.DOTALL)
+    if page.name == "CHANGELOG.md":
+        text = re.sub(r"^\|[^|]*\|", "|", text, flags=re.MULTILINE)  # the columns of old names
+    named = re.findall(r"`<?([\w./]+\.(?:py|h|cpp|toml))>?`", text)
+    named += re.findall(r"`\./([\w/]+)", text)  # scripts
+    known = files()
+    assert [file for file in named if not any(path.endswith(f"/{file}") for path in known)] == []
 
 
 @pytest.mark.parametrize("page", [README, ROOT / "blend_samples/README.md"], ids=name)
