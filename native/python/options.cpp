@@ -115,7 +115,7 @@ const std::vector<Row>& rows() {
         field("regular_iterations", &Options::regular_iterations,
               "iterations along mesh edges first, 0 or more; each searches a band\n"
               "around the last one's result and ends early where nothing moves (5.3, 5.6)"),
-        field("iterations", &Options::iterations, "iterations with refinement after these, 0 or more"),
+        field("iterations", &Options::iterations, "iterations with refinement, after the regular_iterations, 0 or more"),
         field("length_bias", &Options::length_bias, "weight of length / L0 beside ratio / K, 0 or more (6.1.1)"),
         field("length_floor", &Options::length_floor, "below this fraction of L0 nothing is gained by shrinking, 0 or more"),
         choice("length_measure", length_measure_names, &Options::length_measure, "'arc', or 'edges' (appendix A)"),

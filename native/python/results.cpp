@@ -270,10 +270,9 @@ void bind_results(py::module_& module) {
             "list.")
         .def_property_readonly(
             "history", field(&mrc::Result::history),
-            "list of float: the objective of the contour that the iterations start from, then that after each iteration that had "
-            "a\n"
-            "band: one such series for regular_iterations and one for iterations. It never rises within a series. Where the\n"
-            "given contour breaks a requirement, the first contour that keeps all is the start.")
+            "list of float: the objective of the contour that the iterations start from, then that after each iteration that\n"
+            "had a band: one such series for regular_iterations and one for iterations. It never rises within a series. Where\n"
+            "the given contour breaks a requirement, the first contour that keeps all is the start.")
         .def_property_readonly("scales", field(&mrc::Result::scales),
                                "The Scales of the given contour; pass them to optimize to continue from here.")
         .def_property_readonly(

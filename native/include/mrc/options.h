@@ -54,7 +54,7 @@ struct Options {
     // refinement, 3.2, and iteration, 5.3 and 5.6
     int refinement = 0;          ///< k, the Steiner points put on each edge; 0: contours keep to mesh edges
     int regular_iterations = 0;  ///< iterations along mesh edges first
-    int iterations = 1;          ///< iterations with `refinement` after these; both kinds end early where nothing moves
+    int iterations = 1;          ///< iterations with `refinement` after the regular ones; both end early where nothing moves
     /// Where the best found has less salience than this, there is nothing concave to find and the given contour stays.
     std::optional<double> min_salience;
     int threads = 0;  ///< that optimize several contours; 0: as many as the machine has; no result depends on it
