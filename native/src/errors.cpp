@@ -41,8 +41,8 @@ std::string_view code_name(ErrorCode code) {
             return "no_length";
         case ErrorCode::incomputable_scales:
             return "incomputable_scales";
-        case ErrorCode::no_neighbour:
-            return "no_neighbour";
+        case ErrorCode::no_neighbor:
+            return "no_neighbor";
         case ErrorCode::invalid_attractor:
             return "invalid_attractor";
         case ErrorCode::open_region:

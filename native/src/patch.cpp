@@ -127,7 +127,7 @@ bool has_neighbor_along_edges(const Surface& surface, const Contour& contour) {
 
 Patch make_patch(const Surface& surface, const Contour& contour, std::optional<int> rings, const Beat& beat) {
     if (!has_neighbor_along_edges(surface, contour)) {
-        throw InvalidInput(ErrorCode::no_neighbour,
+        throw InvalidInput(ErrorCode::no_neighbor,
                            "no simple contour along mesh edges lies beside the given one, so that no band can grow from it");
     }
     PatchBuilder builder(surface, contour, beat);

@@ -34,7 +34,7 @@ enum class ErrorCode {
     crosses_barrier,
     no_length,            ///< all points lie at one place
     incomputable_scales,  ///< lengths or curvatures too large or too small to compute with
-    no_neighbour,         ///< no simple contour along mesh edges lies beside it
+    no_neighbor,          ///< no simple contour along mesh edges lies beside it
     // constraints
     invalid_attractor,
     open_region,            ///< a region density with an open contour
