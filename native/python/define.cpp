@@ -12,8 +12,10 @@ std::string type_of(const py::handle& value) {
     return value.is_none() ? "None" : py::cast<std::string>(py::type::handle_of(value).attr("__name__"));
 }
 
-/// What pybind11 says where it finds no way to convert the arguments.
-bool is_refusal(const std::string& message) {
+/// Whether pybind11 found no way to convert the arguments. A refusal from within a caller's own function has a traceback.
+bool is_refusal(const py::error_already_set& error) {
+    if (!error.matches(PyExc_TypeError) || error.trace()) return false;
+    const auto message = py::cast<std::string>(py::str(error.value()));
     return message.find("(): incompatible function arguments") != std::string::npos ||
            message.find("(): incompatible constructor arguments") != std::string::npos;
 }
@@ -67,7 +69,7 @@ py::object call(const py::object& function, const Signature& signature, const py
     try {
         return function(*positional, **named);
     } catch (const py::error_already_set& error) {
-        if (!error.matches(PyExc_TypeError) || !is_refusal(py::cast<std::string>(py::str(error.value())))) throw;
+        if (!is_refusal(error)) throw;
     }
     std::vector<py::object> given;
     for (std::size_t i = bound; i < positional.size(); ++i) given.push_back(positional[i]);

@@ -153,3 +153,11 @@ def test_errors_of_the_callers_own_pass_unchanged():
 
     with pytest.raises(TypeError, match=r"^report\(\): incompatible$"):
         mrc.optimize(SURFACE, RING, progress=report)
+
+
+def test_a_refusal_within_the_callers_own_function_passes_unchanged():
+    def report(share):
+        mrc.Contour.vertices.fget(share)
+
+    with pytest.raises(TypeError, match="incompatible function arguments"):
+        mrc.optimize(SURFACE, RING, progress=report)
