@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "arrays.h"
 
+#include <mrc/errors.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -29,8 +31,9 @@ Integers integers(const py::object& values, const char* name) {
     const auto limit = std::numeric_limits<int32_t>::max();
     const auto most = py::cast<py::int_>(array.attr("max")()), least = py::cast<py::int_>(array.attr("min")());
     if (py::cast<bool>(py::bool_(most > py::int_(limit))) || py::cast<bool>(py::bool_(least < py::int_(-limit)))) {
-        throw py::value_error(std::string(name) + " holds numbers from " + py::cast<std::string>(py::str(least)) + " to " +
-                              py::cast<std::string>(py::str(most)) + ", which are no indices");
+        throw mrc::InvalidInput(mrc::ErrorCode::out_of_range, std::string(name) + " holds numbers from " +
+                                                                  py::cast<std::string>(py::str(least)) + " to " +
+                                                                  py::cast<std::string>(py::str(most)) + ", which are no indices");
     }
     return Integers::ensure(array.attr("astype")("int32"));
 }
@@ -48,8 +51,8 @@ void require_shape(const py::array& array, py::ssize_t columns, const char* name
     const bool fits = columns == 0 ? array.ndim() == 1 : array.ndim() == 2 && array.shape(1) == columns;
     if (fits) return;
     const std::string wanted = columns == 0 ? "(n,)" : "(n, " + std::to_string(columns) + ")";
-    throw py::value_error(std::string(name) + " must have the shape " + wanted + ", not " +
-                          py::cast<std::string>(py::str(array.attr("shape"))));
+    throw mrc::InvalidInput(mrc::ErrorCode::wrong_size, std::string(name) + " must have the shape " + wanted + ", not " +
+                                                            py::cast<std::string>(py::str(array.attr("shape"))));
 }
 
 Integers to_array(std::span<const int> values, py::ssize_t columns) {

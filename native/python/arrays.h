@@ -21,13 +21,13 @@ using Iterable = py::typing::Iterable<py::object>;
 using Dict = py::typing::Dict<py::str, py::object>;
 
 /// An array of whole numbers as int32, without a copy where it fits already.
-/// @throws TypeError for other kinds of numbers, ValueError for numbers that do not fit.
+/// @throws TypeError for other kinds of numbers, InvalidInput for numbers that do not fit.
 Integers integers(const py::object& values, const char* name);
 
 /// An array of real numbers as float64, without a copy where it fits already.
 Doubles doubles(const py::object& values, const char* name);
 
-/// @throws ValueError where the array's shape is not (rows, columns); columns 0: one-dimensional.
+/// @throws InvalidInput where the array's shape is not (rows, columns); columns 0: one-dimensional.
 void require_shape(const py::array& array, py::ssize_t columns, const char* name);
 
 template <class T>

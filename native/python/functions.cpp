@@ -62,13 +62,14 @@ py::list optimize_all(const Surface& surface, const Iterable& contours, const py
     const bool return_errors = returns_errors(errors);
     const Density density = to_density(region_density);
     const mrc::Constraints shared = to_constraints(py::tuple(), py::tuple(), attractors, barriers, density);
-    const std::vector<mrc::Task> tasks = to_tasks(contours, closed, required_vertices, required_edges, shared, scales);
+    const Tasks given = to_tasks(contours, closed, required_vertices, required_edges, shared, scales, return_errors);
     const mrc::Progress report = to_progress(progress);
     std::vector<mrc::Outcome> outcomes;
     {
         const py::gil_scoped_release release;
-        outcomes = outcomes_of(surface, tasks, options, report, return_errors);
+        outcomes = outcomes_of(surface, given.tasks, options, report, return_errors);
     }
+    for (const auto& [place, error] : given.errors) outcomes[place] = error;
     py::list described;  // of results, or errors where these are asked for: no signature can say which
     for (mrc::Outcome& outcome : outcomes) {
         if (const auto* error = std::get_if<mrc::InvalidInput>(&outcome)) {

@@ -16,11 +16,12 @@ std::vector<mrc::Attractor> to_attractors(const Iterable& attractors) {
     for (const py::handle item : attractors) {
         const Doubles fields = doubles(py::reinterpret_borrow<py::object>(item), "an attractor");
         if (fields.ndim() != 1 || (fields.size() != 3 && fields.size() != 4)) {
-            throw py::value_error("an attractor is (vertex, radius, strength) or (vertex, radius, strength, sigma)");
+            throw mrc::InvalidInput(mrc::ErrorCode::invalid_attractor,
+                                    "an attractor is (vertex, radius, strength) or (vertex, radius, strength, sigma)");
         }
         const double vertex = fields.at(0);
         if (!(vertex == std::floor(vertex) && std::abs(vertex) < 2147483648.0)) {
-            throw py::value_error("an attractor's vertex must be a whole number");
+            throw mrc::InvalidInput(mrc::ErrorCode::invalid_attractor, "an attractor's vertex must be a whole number");
         }
         mrc::Attractor a{static_cast<int>(vertex), fields.at(1), fields.at(2), std::nullopt};
         if (fields.size() == 4) a.sigma = fields.at(3);
@@ -35,8 +36,9 @@ std::vector<py::object> one_each(const py::object& value, bool single, std::size
     std::vector<py::object> values;
     for (const py::handle item : value) values.push_back(py::reinterpret_borrow<py::object>(item));
     if (values.size() != count) {
-        throw py::value_error(std::string(name) + " has " + std::to_string(values.size()) + " entries for " +
-                              std::to_string(count) + " contours: give one for all or one for each");
+        throw mrc::InvalidInput(mrc::ErrorCode::wrong_size, std::string(name) + " has " + std::to_string(values.size()) +
+                                                                " entries for " + std::to_string(count) +
+                                                                " contours: give one for all or one for each");
     }
     return values;
 }
@@ -100,7 +102,7 @@ mrc::Contour to_contour(const py::object& vertices, bool closed, const py::objec
                         const py::object& edge_parameters) {
     const bool stray = edge_vertices.is_none() && !edge_parameters.is_none();
     if (vertices.is_none() == edge_vertices.is_none() || stray)
-        throw py::value_error("give either vertices, or edge_vertices with edge_parameters");
+        throw mrc::InvalidInput(mrc::ErrorCode::wrong_size, "give either vertices, or edge_vertices with edge_parameters");
     if (py::isinstance<mrc::Contour>(vertices)) return vertices.cast<const mrc::Contour&>();
     if (py::isinstance<PyResult>(vertices)) return vertices.cast<const PyResult&>().result.contour;
     if (!vertices.is_none()) {
@@ -110,12 +112,14 @@ mrc::Contour to_contour(const py::object& vertices, bool closed, const py::objec
     }
     const Integers ends = integers(edge_vertices, "edge_vertices");
     require_shape(ends, 2, "edge_vertices");
-    if (edge_parameters.is_none()) throw py::value_error("edge_vertices need edge_parameters: where on its edge each point lies");
+    if (edge_parameters.is_none())
+        throw mrc::InvalidInput(mrc::ErrorCode::wrong_size,
+                                "edge_vertices need edge_parameters: where on its edge each point lies");
     const Doubles parameters = doubles(edge_parameters, "edge_parameters");
     require_shape(parameters, 0, "edge_parameters");
     if (parameters.size() != ends.shape(0)) {
-        throw py::value_error("edge_parameters has " + std::to_string(parameters.size()) + " entries for " +
-                              std::to_string(ends.shape(0)) + " edge_vertices");
+        throw mrc::InvalidInput(mrc::ErrorCode::wrong_size, "edge_parameters has " + std::to_string(parameters.size()) +
+                                                                " entries for " + std::to_string(ends.shape(0)) + " edge_vertices");
     }
     mrc::Contour contour{{}, closed};
     for (py::ssize_t i = 0; i < ends.shape(0); ++i) contour.points.push_back({ends.at(i, 0), ends.at(i, 1), parameters.at(i)});
@@ -151,24 +155,32 @@ mrc::Constraints to_constraints(const py::object& required_vertices, const py::o
     return constraints;
 }
 
-std::vector<mrc::Task> to_tasks(const Iterable& contours, const py::object& closed, const py::object& required_vertices,
-                                const py::object& required_edges, const mrc::Constraints& shared, const py::object& scales) {
+Tasks to_tasks(const Iterable& contours, const py::object& closed, const py::object& required_vertices,
+               const py::object& required_edges, const mrc::Constraints& shared, const py::object& scales, bool keep_errors) {
     const py::list list(contours);
     const std::size_t count = list.size();
     const auto closed_each = one_each(closed, !is_list(closed), count, "closed");
     const auto vertices_each = one_each(required_vertices, !is_nested(required_vertices, 1), count, "required_vertices");
     const auto edges_each = one_each(required_edges, !is_nested(required_edges, 2), count, "required_edges");
     const auto scales_each = one_each(scales, !is_list(scales), count, "scales");
-    std::vector<mrc::Task> tasks;
+    Tasks result;
     for (std::size_t i = 0; i < count; ++i) {
-        const mrc::Constraints own = to_constraints(vertices_each[i], edges_each[i], py::tuple(), py::tuple(), nullptr);
-        mrc::Task task{listed_contour(list[i], to_bool(closed_each[i], "closed")), shared, std::nullopt};
-        task.constraints.required_vertices = own.required_vertices;
-        task.constraints.required_edges = own.required_edges;
-        task.scales = to_scales(scales_each[i]);
-        tasks.push_back(std::move(task));
+        mrc::Task task{{}, shared, to_scales(scales_each[i])};
+        const bool loop = to_bool(closed_each[i], "closed");
+        const auto place = static_cast<int>(i);
+        try {
+            task.contour = listed_contour(list[i], loop);
+            const mrc::Constraints own = to_constraints(vertices_each[i], edges_each[i], py::tuple(), py::tuple(), nullptr);
+            task.constraints.required_vertices = own.required_vertices;
+            task.constraints.required_edges = own.required_edges;
+        } catch (const mrc::InvalidInput& error) {
+            if (!keep_errors) throw error.of_contour(place, count == 1 ? "" : "contour " + std::to_string(i) + ": ");
+            result.errors.emplace(i, error.of_contour(place));
+            task.contour.points.clear();  // no search takes it
+        }
+        result.tasks.push_back(std::move(task));
     }
-    return tasks;
+    return result;
 }
 
 mrc::Progress to_progress(const py::object& progress) {

@@ -6,6 +6,7 @@
 #include <mrc/optimize.h>
 
 #include <array>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -25,9 +26,14 @@ mrc::Constraints to_constraints(const py::object& required_vertices, const py::o
 /// Vertex pairs.
 std::vector<std::array<int, 2>> edge_pairs(const py::object& edges, const char* name);
 
-/// Several contours; what is not `shared` is one for all or one for each.
-std::vector<mrc::Task> to_tasks(const Iterable& contours, const py::object& closed, const py::object& required_vertices,
-                                const py::object& required_edges, const mrc::Constraints& shared, const py::object& scales);
+struct Tasks {
+    std::vector<mrc::Task> tasks;
+    std::map<std::size_t, mrc::InvalidInput> errors;  // by place: of contours that are no arrays of ids, whose tasks are empty
+};
+
+/// Several contours; what is not `shared` is one for all or one for each. The first error is raised unless `keep_errors`.
+Tasks to_tasks(const Iterable& contours, const py::object& closed, const py::object& required_vertices,
+               const py::object& required_edges, const mrc::Constraints& shared, const py::object& scales, bool keep_errors);
 
 /// None: what is returned only lets Ctrl-C end the call. `progress` must outlive what is returned.
 mrc::Progress to_progress(const py::object& progress);

@@ -4,6 +4,7 @@
 #include "define.h"
 #include "values.h"
 
+#include <mrc/errors.h>
 #include <mrc/surface.h>
 
 #include <algorithm>
@@ -19,7 +20,8 @@ Integers face_ids(const py::object& faces, py::ssize_t count) {
     const py::array array = py::array::ensure(faces);
     if (array && array.dtype().kind() == 'b' && array.size() > 0) {
         if (array.ndim() != 1 || array.size() != count) {
-            throw py::value_error("hidden_faces as a mask must have one entry for each of the " + std::to_string(count) + " faces");
+            throw mrc::InvalidInput(mrc::ErrorCode::wrong_size, "hidden_faces as a mask must have one entry for each of the " +
+                                                                    std::to_string(count) + " faces");
         }
         const py::object nonzero = py::module_::import("numpy").attr("flatnonzero")(array);
         return integers(nonzero, "hidden_faces");
@@ -40,7 +42,9 @@ std::unique_ptr<mrc::Surface> make_surface(const py::object& positions, const py
         offsets = integers(face_offsets, "face_offsets");
         require_shape(offsets, 0, "face_offsets");
         require_shape(corners, 0, "face_vertices");
-        if (offsets.size() == 0) throw py::value_error("face_offsets is empty: it has one entry more than there are faces");
+        if (offsets.size() == 0)
+            throw mrc::InvalidInput(mrc::ErrorCode::wrong_size,
+                                    "face_offsets is empty: it has one entry more than there are faces");
     }
     if (!triangles.is_none()) {
         triples = integers(triangles, "triangles");

@@ -176,6 +176,68 @@ def test_an_error_of_all_is_given_to_each_and_one_of_the_options_is_raised():
         mrc.optimize_all(waisted(), RINGS, options=mrc.Options(width=0), errors="return")
 
 
+UNUSABLE = {
+    "a matrix": (np.zeros((3, 2), int), "wrong_size"),
+    "beyond int32": ([96, 97, 2**40], "out_of_range"),
+    "points of three": (([(96, 97, 98)], [0.5]), "wrong_size"),
+    "too few parameters": (([(96, 97), (97, 98)], [0.5]), "wrong_size"),
+    "nothing": (None, "wrong_size"),
+}
+
+
+@pytest.mark.parametrize("name", UNUSABLE)
+def test_a_contour_of_unusable_arrays_is_an_error_of_that_contour(name):
+    bad, code = UNUSABLE[name]
+    contours, options = [RINGS[0], bad, RINGS[2]], mrc.Options(width=8)
+    first, error, last = mrc.optimize_all(waisted(), contours, options=options, errors="return")
+    assert (type(error), error.code, error.contour) == (mrc.InvalidInput, code, 1)
+    alone = mrc.optimize_all(waisted(), [RINGS[0], RINGS[2]], options=options)
+    assert [r.vertices.tolist() for r in (first, last)] == [r.vertices.tolist() for r in alone]
+    with pytest.raises(mrc.InvalidInput) as caught:
+        mrc.optimize_all(waisted(), contours)
+    assert (str(caught.value), caught.value.code, caught.value.contour) == (f"contour 1: {error}", code, 1)
+
+
+def test_required_elements_of_unusable_arrays_are_an_error_of_their_contour():
+    required = [[], [2**40], []]
+    outcomes = mrc.optimize_all(waisted(), RINGS, required_vertices=required, errors="return")
+    assert [getattr(outcome, "code", None) for outcome in outcomes] == [None, "out_of_range", None]
+    assert outcomes[1].contour == 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code"),
+    [
+        ({"vertices": RINGS[0][None]}, "wrong_size"),
+        ({"vertices": [0, 1, 2**40]}, "out_of_range"),
+        ({"vertices": None}, "wrong_size"),
+        ({"vertices": None, "edge_vertices": [(0, 1)]}, "wrong_size"),
+        ({"barriers": [0, 1]}, "wrong_size"),
+        ({"required_edges": [(0, 1, 2)]}, "wrong_size"),
+        ({"attractors": [(1, 2)]}, "invalid_attractor"),
+        ({"attractors": [(1.5, 2, 3)]}, "invalid_attractor"),
+        ({"region_density": np.ones((2, 2))}, "wrong_size"),
+    ],
+)
+def test_unusable_arrays_have_a_code(arguments, code):
+    assert refused(**arguments).code == code
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        {"positions": np.eye(2)},
+        {"face_vertices": [0, 1, 2]},
+        {"face_offsets": [], "face_vertices": [0, 1, 2]},
+        {"hidden_faces": [True, False]},
+    ],
+)
+def test_unusable_arrays_of_a_surface_have_a_code(arguments):
+    with pytest.raises(mrc.InvalidInput) as caught:
+        mrc.Surface(**{"positions": np.eye(3), "face_offsets": None, "face_vertices": [[0, 1, 2]], **arguments})
+    assert caught.value.code == "wrong_size"
+
+
 @pytest.mark.parametrize("errors", ["ignore", None, 3])
 def test_errors_is_raise_or_return(errors):
     with pytest.raises(ValueError, match="'raise' or 'return'"):
