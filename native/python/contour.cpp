@@ -37,7 +37,7 @@ void bind_contour(py::module_& module) {
         contour, &to_contour,
         "vertices: (N,) ids in order along real edges; a closed contour does not repeat its first. Or a Contour or a\n"
         "Result, whose contour and closed are taken.\n"
-        "closed: a loop, or an open curve.\n"
+        "closed: a loop, or an open curve; ignored for a Contour or a Result.\n"
         "edge_vertices, edge_parameters: (N, 2) and (N,), instead of vertices: point i lies at (1 - t) a + t b.\n"
         "Whether it fits a surface is checked where it is used.",
         py::arg("vertices") = py::none(), py::arg("closed") = true, py::arg("edge_vertices") = py::none(),
