@@ -64,15 +64,15 @@ ContourOptimization::ContourOptimization(const Surface& surface, const Contour& 
     : surface_(surface),
       options_(options),
       phase_options_(options),
-      constraints_(constraints),
+      constraints_(&constraints),
       given_(contour),
       stopwatch_(result_.statistics.seconds),
       feasible_(has_required_elements(contour, constraints)) {
     context_ = stopwatch_.time("curvature", [&] {
         return std::make_unique<SearchContext>(surface, contour, options, constraints.attractors, scales, beat);
     });
-    if (constraints_.has_region() && options_.region_weight != 0.0) {
-        enclosed_ = enclosed_change(surface_, *constraints_.region_density, context_->scales.given, given_, beat);
+    if (constraints_->has_region() && options_.region_weight != 0.0) {
+        enclosed_ = enclosed_change(surface_, *constraints_->region_density, context_->scales.given, given_, beat);
     }
     const Measure first = measure(surface_, context_->energy, given_, options_.refinement, enclosed_);
     result_.scales = context_->scales;
@@ -122,7 +122,7 @@ void ContourOptimization::grow(Partition* partition, int number, const Beat& bea
         exclusion_ = partition->exclusion(number, *patch_);
         exclusion_.own = {expressed(given_, steiner_), expressed(result_.contour, steiner_)};
     }
-    band_ = stopwatch_.time("band", [&] { return grow_band(surface_, *patch_, phase_options_, constraints_, exclusion_, beat); });
+    band_ = stopwatch_.time("band", [&] { return grow_band(surface_, *patch_, phase_options_, *constraints_, exclusion_, beat); });
 }
 
 void ContourOptimization::search(Partition* partition, int number, const Beat& beat) {
@@ -136,12 +136,12 @@ void ContourOptimization::search(Partition* partition, int number, const Beat& b
     stopwatch_.time("curvature", [&] { prepare_curvature(beat); });
     const std::optional<EdgeForm> region = make_region_form(*patch_, flow, beat);
     const ContourGraph graph = stopwatch_.time("graph", [&] {
-        return make_graph(surface_, *patch_, band_, flow, context_->energy, options_, constraints_, steiner_,
+        return make_graph(surface_, *patch_, band_, flow, context_->energy, options_, *constraints_, steiner_,
                           region ? &*region : nullptr, exclusion_, beat);
     });
     const RatioResult best = stopwatch_.time("ratio", [&] { return minimum_ratio(graph.search, search_options(beat)); });
     count(graph, best);
-    if (!feasible_ && !best.found) throw infeasible(graph, constraints_, result_.held_back_by);
+    if (!feasible_ && !best.found) throw infeasible(graph, *constraints_, result_.held_back_by);
     const double before = feasible_ ? result_.objective : std::numeric_limits<double>::infinity();
     if (best.found) accept(trace_contour(graph, *patch_, best.nodes), region);
     searched_ |= best.found;
@@ -167,7 +167,7 @@ Result ContourOptimization::finish() {
     if (!feasible_)
         throw Infeasible("the given contour lacks required elements, and " +
                              (result_.reason.empty() ? "no iteration was asked for" : result_.reason),
-                         elements_required_by(constraints_));
+                         elements_required_by(*constraints_));
     if (searched_ && featureless()) explain_featureless();
     // An improvement along mesh edges may be none with the Steiner points of a last phase that found nothing.
     const bool lost = result_.status == Status::improved && !below(result_.objective, result_.initial_objective);
@@ -214,8 +214,8 @@ RatioOptions ContourOptimization::search_options(const Beat& beat) const {
 }
 
 std::optional<EdgeForm> ContourOptimization::make_region_form(const Patch& patch, const Flow& flow, const Beat& beat) const {
-    if (!constraints_.has_region() || options_.region_weight == 0.0) return std::nullopt;
-    return region_form(surface_, patch, band_, flow, *constraints_.region_density, enclosed_, beat);
+    if (!constraints_->has_region() || options_.region_weight == 0.0) return std::nullopt;
+    return region_form(surface_, patch, band_, flow, *constraints_->region_density, enclosed_, beat);
 }
 
 void ContourOptimization::accept(const Contour& found, const std::optional<EdgeForm>& region) {

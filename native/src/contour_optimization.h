@@ -54,6 +54,8 @@ class ContourOptimization {
     ContourOptimization(const Surface& surface, const Contour& contour, const Options& options, const Constraints& constraints,
                         const std::optional<Scales>& scales, const Beat& beat = {});
 
+    /// Replaces the constraints, before the first iteration; these too must outlive the object.
+    void constrain(const Constraints& constraints) { constraints_ = &constraints; }
     /// Iterations with one k, measured with its Steiner points: a segment of the history.
     void begin_phase(int steiner);
     /// Begins an iteration by making its patch.
@@ -83,7 +85,7 @@ class ContourOptimization {
     const Surface& surface_;
     const Options& options_;
     Options phase_options_;  // with the width of the current phase
-    const Constraints& constraints_;
+    const Constraints* constraints_;
     const Contour given_;
     Result result_;
     Stopwatch stopwatch_;

@@ -51,9 +51,7 @@ class JointOptimization {
           on_error_(on_error),
           tasks_(tasks),
           errors_(tasks.size()),
-          contours_(tasks.size()) {
-        for (const Task& task : tasks) constraints_.push_back(task.constraints);
-    }
+          contours_(tasks.size()) {}
 
     std::vector<Outcome> run() {
         try {
@@ -77,7 +75,7 @@ class JointOptimization {
     const int regular_iterations_;
     const OnError on_error_;
     const std::span<const Task> tasks_;
-    std::vector<Constraints> constraints_;
+    std::vector<Constraints> blocked_;  // the constraints with what refused contours add; empty where none was refused
     std::vector<std::optional<InvalidInput>> errors_;             // of the contours whose errors are kept
     std::vector<std::unique_ptr<ContourOptimization>> contours_;  // null: refused before the first iteration
     int iteration_ = 0;                                           // the current one, counted as if none ended early
@@ -116,9 +114,9 @@ class JointOptimization {
         const Beat beat = [this] { monitor_.essential_beat(); };
         for_each([&](int i) {
             const Task& task = tasks_[i];
-            const Contour checked = checked_input(surface_, task.contour, options_, constraints_[i], task.scales);
-            check_barriers(surface_, checked, constraints_[i]);
-            contours_[i] = std::make_unique<ContourOptimization>(surface_, checked, options_, constraints_[i], task.scales, beat);
+            const Contour checked = checked_input(surface_, task.contour, options_, task.constraints, task.scales);
+            check_barriers(surface_, checked, task.constraints);
+            contours_[i] = std::make_unique<ContourOptimization>(surface_, checked, options_, task.constraints, task.scales, beat);
         });
         block_refused();
     }
@@ -131,8 +129,12 @@ class JointOptimization {
             const std::vector<Edge> own = real_edges_along(surface_, tasks_[i].contour);
             edges.insert(edges.end(), own.begin(), own.end());
         }
-        for (Constraints& constraints : constraints_) {
-            constraints.barriers.insert(constraints.barriers.end(), edges.begin(), edges.end());
+        if (edges.empty()) return;
+        for (const Task& task : tasks_) blocked_.push_back(task.constraints);
+        for (int i = 0; i < count(); ++i) {
+            std::vector<Edge>& barriers = blocked_[i].barriers;
+            barriers.insert(barriers.end(), edges.begin(), edges.end());
+            if (contours_[i]) contours_[i]->constrain(blocked_[i]);
         }
     }
 
