@@ -246,7 +246,7 @@ class CurvatureField::Impl {
 
     /// The tensors around a vertex, averaged term by term (Alliez et al. 2003).
     Symmetric smoothed(int n) {
-        if (sigma_ == 0.0) return tensors_[n];
+        if (!std::isnormal(sigma_ * sigma_)) return tensors_[n];  // no smoothing, or over no length
         Symmetric sum = Symmetric::Zero();
         double weights = 0.0;
         for (const int other : search_.run(near_, std::span(&n, 1), limit_, [](int) {})) {

@@ -18,6 +18,9 @@ double turn(const Vec2& p, const Vec2& q) {
     return angle >= 0.0 ? angle : angle > -1e-9 ? 0.0 : angle + 2.0 * std::numbers::pi;
 }
 
+/// A square that underflows is zero: what has it has no length, and its reciprocal may not be finite.
+double normal_or_zero(double square) { return std::isnormal(square) ? square : 0.0; }
+
 /// Unit; of a triangle without area, its polygon's; zero where that has none either.
 Vec3 triangle_normal(const Surface& surface, int triangle) {
     const auto& v = surface.triangle(triangle);
@@ -145,7 +148,7 @@ int DiskTensors::triangle_number(int triangle) {
     Triangle t{};
     t.id = triangle;
     t.origin = a;
-    t.doubled_area = area.norm();
+    t.doubled_area = std::sqrt(normal_or_zero(area.squaredNorm()));
     if (t.doubled_area > 0.0) {
         t.normal = area / t.doubled_area;
         t.x = p.normalized();
@@ -179,7 +182,7 @@ int DiskTensors::edge_number(int halfedge) {
     // The same direction whatever half-edge is asked for, so that a vertex always has the same curvature to the last bit.
     const int from = surface_->from(halfedge), to = surface_->to(halfedge);
     const Vec3 start = surface_->position(std::min(from, to)), vector = surface_->position(std::max(from, to)) - start;
-    const double length2 = vector.squaredNorm(), length = std::sqrt(length2);
+    const double length2 = normal_or_zero(vector.squaredNorm()), length = std::sqrt(length2);
     edges_.push_back({start, vector, length2, length2 > 0.0 ? 1.0 / length2 : 0.0, 0.0, Symmetric::Zero()});
     spans_.emplace_back();
     const int twin = surface_->twin(halfedge);

@@ -265,3 +265,12 @@ def test_progress_never_decreases_for_any_number_of_iterations():
     mrc.optimize(surface_of(tube()), ring(3), options=options, progress=shares.append)
     assert shares == sorted(shares)
     assert shares[0] >= 0
+
+
+@pytest.mark.parametrize("length", [2.52801656e-157, 10**-161.69115191986646])
+def test_lengths_whose_squares_underflow_are_none(length):
+    positions = np.zeros((8, 3))
+    positions[0, 0] = length
+    curvature = mrc.curvature(mrc.Surface(positions, [0, 4], [0, 1, 2, 3]), mrc.Options())
+    for values in (curvature.kappa_min, curvature.kappa_max, curvature.direction_min, curvature.direction_max):
+        assert np.isfinite(values).all()
