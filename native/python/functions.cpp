@@ -86,10 +86,11 @@ py::typing::Optional<PyInvalidInput> check_contour(const Surface& surface, const
                                                    const py::object& edge_parameters) {
     const mrc::Contour contour = to_contour(vertices, closed, edge_vertices, edge_parameters);
     const std::vector<std::array<int, 2>> edges = edge_pairs(barriers, "barriers");
+    const mrc::Progress interruption = to_progress(py::none());
     std::optional<mrc::InvalidInput> error;
     {
         const py::gil_scoped_release release;
-        error = mrc::check_contour(surface, contour, edges);
+        error = mrc::check_contour(surface, contour, edges, interruption);
     }
     if (!error) return py::none();
     return to_python(*error);

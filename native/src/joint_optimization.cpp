@@ -65,6 +65,10 @@ class JointOptimization {
         } catch (const ProgressMonitor::Cancelled&) {
             if (monitor_.failure()) std::rethrow_exception(monitor_.failure());
             return cancelled();
+        } catch (const InvalidInput&) {
+            // A failure of the caller's function comes first: it may be an interrupt.
+            if (monitor_.failure()) std::rethrow_exception(monitor_.failure());
+            throw;
         }
     }
 
@@ -268,13 +272,13 @@ Result optimize(const Surface& surface, const Contour& contour, const Options& o
 }
 
 std::optional<InvalidInput> check_contour(const Surface& surface, const Contour& contour,
-                                          std::span<const std::array<int, 2>> barriers) {
+                                          std::span<const std::array<int, 2>> barriers, const Progress& progress) {
     Options options;
     options.iterations = 0;
     Constraints constraints;
     constraints.barriers.assign(barriers.begin(), barriers.end());
     try {
-        optimize(surface, contour, options, constraints);
+        optimize(surface, contour, options, constraints, std::nullopt, progress);
     } catch (const InvalidInput& error) {
         return error;
     }

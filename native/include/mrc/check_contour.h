@@ -13,8 +13,9 @@ namespace mrc {
 /// Why `optimize` would refuse a contour before any search; none: it would not.
 ///
 /// That is all that concerns the contour and the barriers, with default options and no other constraints. Whether the search itself
-/// can meet required elements, or fits into memory, only the search shows. Takes as long as `measure`.
+/// can meet required elements, or fits into memory, only the search shows. Takes as long as `measure`, and none is returned where
+/// `progress` cancels it.
 std::optional<InvalidInput> check_contour(const Surface& surface, const Contour& contour,
-                                          std::span<const std::array<int, 2>> barriers = {});
+                                          std::span<const std::array<int, 2>> barriers = {}, const Progress& progress = {});
 
 }  // namespace mrc
