@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <set>
+#include <stdexcept>
 #include <string>
 
 namespace mrc {
@@ -121,6 +122,15 @@ TEST_F(Joint, its_progress_goes_from_zero_to_one_and_a_cancel_leaves_all_as_give
         EXPECT_EQ(found[i].status, Status::cancelled);
         EXPECT_EQ(found[i].contour, given[i].contour);
     }
+}
+
+/// So many contours that the caller is asked long before all are checked, and the first of them is refused at once.
+TEST_F(Joint, what_the_caller_throws_comes_before_an_error_of_a_contour) {
+    std::vector<Task> bad(2000, Task{mrc_test::loop_near(0), {}, {}});
+    bad[0].contour.points.clear();
+    const auto thrower = [](double) -> bool { throw std::runtime_error("interrupt"); };
+    EXPECT_THROW(optimize_all(surface, bad, settings(), thrower), std::runtime_error);
+    EXPECT_THROW(optimize_all(surface, bad, settings(2), thrower), std::runtime_error);
 }
 
 TEST_F(Joint, no_tasks_have_no_results) { EXPECT_TRUE(optimize_all(surface, {}, settings()).empty()); }
