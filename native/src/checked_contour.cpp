@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "edge_obstacles.h"
 #include "element_names.h"
-#include "obstacles.h"
 #include "patch.h"
 #include "segments.h"
 #include "surface_point.h"

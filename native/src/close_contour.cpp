@@ -6,8 +6,8 @@
 #include "contour_scales.h"
 #include "curvature_field.h"
 #include "distances.h"
+#include "edge_obstacles.h"
 #include "element_names.h"
-#include "obstacles.h"
 #include "patch.h"
 
 #include <Eigen/Eigenvalues>

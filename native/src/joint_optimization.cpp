@@ -2,7 +2,7 @@
 #include <mrc/check_contour.h>
 #include <mrc/optimize.h>
 
-#include "barriers.h"
+#include "barrier_crossings.h"
 #include "checked_input.h"
 #include "contour_optimization.h"
 #include "parallel.h"

@@ -2,7 +2,7 @@
 #include "patch.h"
 
 #include "distances.h"
-#include "obstacles.h"
+#include "edge_obstacles.h"
 #include "segments.h"
 #include "snapped_contour.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "made_surfaces.h"
 
-#include "barriers.h"
+#include "barrier_crossings.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "obstacles.h"
+#include "edge_obstacles.h"
 
 #include <algorithm>
 

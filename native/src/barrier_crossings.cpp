@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "barriers.h"
+#include "barrier_crossings.h"
 
 #include "element_names.h"
 #include "segments.h"
