@@ -15,11 +15,12 @@
 namespace mrc {
 namespace {
 
+using mrc_test::all_tasks;
 using mrc_test::loop_near;
 using mrc_test::waisted_torus;
 using mrc_test::waists;
 
-Options options(int refinement, int threads) {
+Options each_options(int refinement, int threads) {
     Options options;
     options.refinement = refinement;
     options.regular_iterations = refinement > 0 ? 1 : 0;
@@ -27,12 +28,6 @@ Options options(int refinement, int threads) {
     options.iterations = 2;
     options.threads = threads;
     return options;
-}
-
-std::vector<Task> all_tasks() {
-    std::vector<Task> tasks(waists);
-    for (int waist = 0; waist < waists; ++waist) tasks[waist].contour = loop_near(waist);
-    return tasks;
 }
 
 /// A contour that is refused, as it begins and ends at once; it lies where the band of the loop near waist 0 would grow.
@@ -62,8 +57,8 @@ TEST(OptimizeEach, gives_the_results_of_optimize_all_where_nothing_is_wrong) {
     const Surface surface = waisted_torus();
     for (const int refinement : {0, 1}) {
         const std::vector<Task> tasks = all_tasks();
-        const std::vector<Result> results = optimize_all(surface, tasks, options(refinement, 1));
-        const std::vector<Outcome> outcomes = optimize_each(surface, tasks, options(refinement, 1));
+        const std::vector<Result> results = optimize_all(surface, tasks, each_options(refinement, 1));
+        const std::vector<Outcome> outcomes = optimize_each(surface, tasks, each_options(refinement, 1));
         ASSERT_EQ(outcomes.size(), results.size());
         for (int i = 0; i < waists; ++i) EXPECT_TRUE(same(std::get<Result>(outcomes[i]), results[i]));
     }
@@ -72,10 +67,10 @@ TEST(OptimizeEach, gives_the_results_of_optimize_all_where_nothing_is_wrong) {
 TEST(OptimizeEach, a_refused_contour_is_a_barrier_to_the_others) {
     const Surface surface = waisted_torus();
     std::vector<Task> tasks = all_tasks();
-    const std::vector<Result> without = optimize_all(surface, tasks, options(0, 1));
+    const std::vector<Result> without = optimize_all(surface, tasks, each_options(0, 1));
     const Task refused = refused_task();
     tasks.push_back(refused);
-    const std::vector<Outcome> outcomes = optimize_each(surface, tasks, options(0, 1));
+    const std::vector<Outcome> outcomes = optimize_each(surface, tasks, each_options(0, 1));
     EXPECT_EQ(std::get<InvalidInput>(outcomes.back()).contour(), waists);
     tasks.pop_back();
     for (Task& task : tasks) {
@@ -84,7 +79,7 @@ TEST(OptimizeEach, a_refused_contour_is_a_barrier_to_the_others) {
             if (surface.real_edge(a, b)) task.constraints.barriers.push_back({a, b});
         }
     }
-    const std::vector<Result> walled = optimize_all(surface, tasks, options(0, 1));
+    const std::vector<Result> walled = optimize_all(surface, tasks, each_options(0, 1));
     for (int i = 0; i < waists; ++i) EXPECT_TRUE(same(std::get<Result>(outcomes[i]), walled[i])) << i;
     EXPECT_FALSE(same(walled[0], without[0])) << "the refused contour is not in the way";
 }
@@ -94,8 +89,8 @@ TEST(OptimizeEach, a_single_contour_beside_a_refused_one_is_searched_as_alone) {
     Task refused = refused_task();
     refused.contour = vertex_contour(std::vector{640, 640});
     const std::vector<Task> tasks{{loop_near(0), {}, std::nullopt}, refused};
-    const std::vector<Outcome> outcomes = optimize_each(surface, tasks, options(1, 1));
-    EXPECT_TRUE(same(std::get<Result>(outcomes[0]), optimize(surface, loop_near(0), options(1, 1))));
+    const std::vector<Outcome> outcomes = optimize_each(surface, tasks, each_options(1, 1));
+    EXPECT_TRUE(same(std::get<Result>(outcomes[0]), optimize(surface, loop_near(0), each_options(1, 1))));
 }
 
 TEST(OptimizeEach, a_contour_whose_search_fails_keeps_its_place) {
@@ -108,7 +103,7 @@ TEST(OptimizeEach, a_contour_whose_search_fails_keeps_its_place) {
     tasks.back().contour = vertex_contour(ring);
     tasks.back().constraints.required_vertices = {640};
     for (const int refinement : {0, 1}) {
-        const std::vector<Outcome> outcomes = optimize_each(surface, tasks, options(refinement, 1));
+        const std::vector<Outcome> outcomes = optimize_each(surface, tasks, each_options(refinement, 1));
         const auto& error = std::get<InvalidInput>(outcomes.back());
         EXPECT_EQ(error.code(), ErrorCode::outside_band);
         EXPECT_EQ(error.elements(), std::vector{Element::vertex(640)});
@@ -126,10 +121,10 @@ TEST(OptimizeEach, does_not_depend_on_threads) {
     tasks[2].constraints.required_vertices = {0};
     tasks.push_back(refused_task());
     for (const int refinement : {0, 1}) {
-        const std::vector<Outcome> one = optimize_each(surface, tasks, options(refinement, 1));
+        const std::vector<Outcome> one = optimize_each(surface, tasks, each_options(refinement, 1));
         EXPECT_TRUE(std::holds_alternative<InvalidInput>(one[2]));
         for (const int threads : {2, 4}) {
-            const std::vector<Outcome> many = optimize_each(surface, tasks, options(refinement, threads));
+            const std::vector<Outcome> many = optimize_each(surface, tasks, each_options(refinement, threads));
             for (std::size_t i = 0; i < tasks.size(); ++i) EXPECT_TRUE(same(one[i], many[i])) << i;
         }
     }
@@ -140,9 +135,9 @@ TEST(OptimizeEach, does_not_depend_on_the_order) {
     std::vector<Task> tasks = all_tasks();
     tasks[1].constraints.required_vertices = {0};
     tasks.push_back(refused_task());
-    const std::vector<Outcome> forward = optimize_each(surface, tasks, options(0, 2));
+    const std::vector<Outcome> forward = optimize_each(surface, tasks, each_options(0, 2));
     std::ranges::reverse(tasks);
-    const std::vector<Outcome> backward = optimize_each(surface, tasks, options(0, 2));
+    const std::vector<Outcome> backward = optimize_each(surface, tasks, each_options(0, 2));
     for (std::size_t i = 0; i < tasks.size(); ++i) {
         const Outcome &a = forward[i], &b = backward[tasks.size() - 1 - i];
         ASSERT_EQ(a.index(), b.index());
@@ -167,7 +162,8 @@ TEST(OptimizeEach, a_cancel_leaves_errors_and_given_contours) {
     const Surface surface = waisted_torus();
     std::vector<Task> tasks = all_tasks();
     tasks.push_back(refused_task());
-    const std::vector<Outcome> outcomes = optimize_each(surface, tasks, options(1, 2), [](double share) { return share < 0.3; });
+    const std::vector<Outcome> outcomes =
+        optimize_each(surface, tasks, each_options(1, 2), [](double share) { return share < 0.3; });
     for (int i = 0; i < waists; ++i) {
         EXPECT_EQ(std::get<Result>(outcomes[i]).status, Status::cancelled);
         EXPECT_EQ(std::get<Result>(outcomes[i]).contour, tasks[i].contour);

@@ -19,6 +19,7 @@
 namespace mrc {
 namespace {
 
+using mrc_test::all_tasks;
 using mrc_test::loop_near;
 using mrc_test::waisted_torus;
 using mrc_test::waists;
@@ -85,7 +86,7 @@ class Listener {
     bool fell_ = false, strayed_ = false;
 };
 
-Options options(int refinement, int threads) {
+Options thread_options(int refinement, int threads) {
     Options options;
     options.refinement = refinement;
     options.iterations = 2;
@@ -94,23 +95,18 @@ Options options(int refinement, int threads) {
     return options;
 }
 
-std::vector<Task> all_tasks() {
-    std::vector<Task> tasks(waists);
-    for (int waist = 0; waist < waists; ++waist) tasks[waist].contour = loop_near(waist);
-    return tasks;
-}
-
 using Job = std::function<std::string(const Surface&, int threads)>;
 
 std::string one(const Surface& surface, int refinement, double stop_at) {
     Listener listener(stop_at);
-    const Result result = optimize(surface, loop_near(refinement), options(refinement, 1), {}, std::nullopt, listener.progress());
+    const Result result =
+        optimize(surface, loop_near(refinement), thread_options(refinement, 1), {}, std::nullopt, listener.progress());
     return (Bytes() << result << listener.verdict()).text;
 }
 
 std::string all(const Surface& surface, int threads, double stop_at) {
     Listener listener(stop_at);
-    const std::vector<Result> results = optimize_all(surface, all_tasks(), options(1, threads), listener.progress());
+    const std::vector<Result> results = optimize_all(surface, all_tasks(), thread_options(1, threads), listener.progress());
     return (Bytes() << results << listener.verdict()).text;
 }
 
@@ -122,13 +118,13 @@ std::string all_with_a_cancel_under_way(const Surface& surface, int threads) {
         last = share;
         return !again && share < 1.0;
     };
-    return (Bytes() << optimize_all(surface, all_tasks(), options(2, threads), progress)).text;
+    return (Bytes() << optimize_all(surface, all_tasks(), thread_options(2, threads), progress)).text;
 }
 
 std::string all_with_a_throw(const Surface& surface, int threads) {
     const auto progress = [](double share) -> bool { return share < 0.3 ? true : throw std::runtime_error("enough"); };
     try {
-        optimize_all(surface, all_tasks(), options(1, threads), progress);
+        optimize_all(surface, all_tasks(), thread_options(1, threads), progress);
     } catch (const std::runtime_error& error) {
         return error.what();
     }
@@ -140,7 +136,7 @@ std::string all_with_bad_input(const Surface& surface, int threads) {
     std::vector<Task> tasks = all_tasks();
     for (const int i : {1, 3}) tasks[i].contour.points.resize(5);
     try {
-        optimize_all(surface, tasks, options(1, threads));
+        optimize_all(surface, tasks, thread_options(1, threads));
     } catch (const InvalidInput& error) {
         return error.what();
     }
@@ -148,7 +144,7 @@ std::string all_with_bad_input(const Surface& surface, int threads) {
 }
 
 std::string space(const Surface& surface) {
-    const SearchSpace space = search_space(surface, loop_near(2), options(2, 1));
+    const SearchSpace space = search_space(surface, loop_near(2), thread_options(2, 1));
     const WeightedGraph& search = space.graph.search;
     return (Bytes() << space.band.polygons << search.first_arc << search.from << search.f << search.g).text;
 }
@@ -193,9 +189,9 @@ TEST(Threads, calls_at_once_on_one_surface_give_the_bytes_of_calls_in_turn) {
 TEST(Threads, the_calls_that_are_compared_do_what_they_are_meant_to) {
     const Surface surface = waisted_torus();
     const std::vector<Task> tasks = all_tasks();
-    for (const Result& result : optimize_all(surface, tasks, options(1, 4))) EXPECT_EQ(result.status, Status::improved);
+    for (const Result& result : optimize_all(surface, tasks, thread_options(1, 4))) EXPECT_EQ(result.status, Status::improved);
     Listener listener(0.3);
-    const std::vector<Result> cancelled = optimize_all(surface, tasks, options(1, 4), listener.progress());
+    const std::vector<Result> cancelled = optimize_all(surface, tasks, thread_options(1, 4), listener.progress());
     for (int i = 0; i < waists; ++i) {
         EXPECT_EQ(cancelled[i].status, Status::cancelled);
         EXPECT_EQ(cancelled[i].contour, tasks[i].contour);

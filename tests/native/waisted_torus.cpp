@@ -39,4 +39,10 @@ mrc::Contour loop_near(int waist) {
     return mrc::vertex_contour(loop);
 }
 
+std::vector<mrc::Task> all_tasks() {
+    std::vector<mrc::Task> tasks(waists);
+    for (int waist = 0; waist < waists; ++waist) tasks[waist].contour = loop_near(waist);
+    return tasks;
+}
+
 }  // namespace mrc_test

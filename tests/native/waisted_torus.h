@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <mrc/optimize.h>
 #include <mrc/surface.h>
+
+#include <vector>
 
 namespace mrc_test {
 
@@ -12,5 +15,8 @@ mrc::Surface waisted_torus();
 
 /// A jagged loop around the tube, two columns off a waist.
 mrc::Contour loop_near(int waist);
+
+/// A task for the loop near each waist.
+std::vector<mrc::Task> all_tasks();
 
 }  // namespace mrc_test
