@@ -6,7 +6,9 @@
 #include <pybind11/gil_safe_call_once.h>
 #include <pybind11/typing.h>
 
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace mrc_python {
 namespace {
@@ -94,7 +96,8 @@ PyInvalidInput to_python(const mrc::InvalidInput& error) {
     const py::object made = classes.get_stored().of(error.code())(error.what());
     made.attr("_code") = std::string(mrc::code_name(error.code()));
     made.attr("_elements") = to_tuple(error.elements());
-    made.attr("_contour") = error.contour() ? py::object(py::int_(*error.contour())) : py::none();
+    const std::optional<int> place = error.contour();
+    made.attr("_contour") = place ? py::object(py::int_(*place)) : py::none();
     return py::reinterpret_borrow<PyInvalidInput>(made);
 }
 
@@ -102,7 +105,7 @@ void bind_errors(py::module_& module) {
     classes.call_once_and_store_result([&] { return make_classes(module); });
     py::register_local_exception_translator([](std::exception_ptr thrown) {
         try {
-            if (thrown) std::rethrow_exception(thrown);
+            if (thrown) std::rethrow_exception(std::move(thrown));
         } catch (const mrc::InvalidInput& error) {
             const PyInvalidInput raised = to_python(error);
             PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(raised.ptr())), raised.ptr());

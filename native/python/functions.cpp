@@ -159,7 +159,7 @@ py::typing::Union<Integers, py::typing::Tuple<Integers, Sides>> band(const Surfa
         const py::gil_scoped_release release;
         found = mrc::band(surface, contour, options, interruption);
     }
-    const Integers faces = to_array(found.faces);
+    Integers faces = to_array(found.faces);
     if (!sides) return faces;
     Sides array(static_cast<py::ssize_t>(found.sides.size()));
     std::ranges::copy(found.sides, array.mutable_data());
@@ -278,10 +278,7 @@ std::string overloads_by_sides(const std::string& documentation) {
            returned.substr(bar + arrow.size()) + words;
 }
 
-}  // namespace
-
-void bind_functions(py::module_& module) {
-    const auto defaults = py::arg_v("options", Options(), "Options()");  // all of them would fill each signature
+void bind_curvature(py::module_& module) {
     py::class_<PyCurvature>(module, "Curvature", "Principal curvatures over all vertices, positive where convex (3.4).")
         .def(py::pickle(
             [](const PyCurvature& c) { return py::make_tuple(c.kappa_min, c.kappa_max, c.direction_min, c.direction_max); },
@@ -293,6 +290,9 @@ void bind_functions(py::module_& module) {
         .def_readonly("kappa_max", &PyCurvature::kappa_max, "(V,) float64, one over the unit of length.")
         .def_readonly("direction_min", &PyCurvature::direction_min, "(V, 3) float64, unit tangents; they run along ridges.")
         .def_readonly("direction_max", &PyCurvature::direction_max, "(V, 3) float64, unit tangents; they run along valleys.");
+}
+
+void bind_searches(py::module_& module, const py::arg_v& defaults) {
     const py::tuple nothing;
     define(
         module, "optimize", &optimize,
@@ -338,6 +338,11 @@ void bind_functions(py::module_& module) {
         py::arg("required_edges") = nothing, py::arg("attractors") = nothing, py::arg("barriers") = nothing,
         py::arg("region_density") = py::none(), py::arg("scales") = py::none(), py::arg("progress") = py::none(),
         py::arg("errors") = "raise");
+}
+
+/// What answers without a search.
+void bind_queries(py::module_& module, const py::arg_v& defaults) {
+    const py::tuple nothing;
     define(module, "check_contour", &check_contour,
            "Why optimize would refuse a contour, without a search: an InvalidInput that is not raised, or None. Arguments are\n"
            "those of optimize. Only a search finds required elements that cannot be reached.",
@@ -382,6 +387,15 @@ void bind_functions(py::module_& module) {
            "cross the flow's value level, a float.",
            py::arg("surface"), py::arg("vertices") = py::none(), py::arg("closed") = true, defaults,
            py::arg("edge_vertices") = py::none(), py::arg("edge_parameters") = py::none());
+}
+
+}  // namespace
+
+void bind_functions(py::module_& module) {
+    const auto defaults = py::arg_v("options", Options(), "Options()");  // all of them would fill each signature
+    bind_curvature(module);
+    bind_searches(module, defaults);
+    bind_queries(module, defaults);
 }
 
 }  // namespace mrc_python

@@ -3,7 +3,6 @@
 #include "bindings.h"
 
 PYBIND11_MODULE(mrcontour, module) {
-    namespace py = pybind11;
     module.doc() =
         "Minimum ratio contours: moves a rough loop of edges on a mesh to where the part really ends.\n\n"
         "Make a Surface from arrays, then call optimize. Lengths are in the mesh's own unit, curvatures in one over it, angles\n"
