@@ -49,9 +49,9 @@ void Constraints::check(const Surface& surface) const {
     }
     for (const Attractor& a : attractors) {
         check_vertex(surface, a.vertex, "attractor vertex");
-        const std::string name = "the attractor at vertex " + std::to_string(a.vertex);
+        const std::string begin = "the attractor at vertex " + std::to_string(a.vertex) + " has ";
         const auto require = [&](bool valid, const std::string& fault) {
-            if (!valid) throw InvalidInput(ErrorCode::invalid_attractor, name + " has " + fault, {Element::vertex(a.vertex)});
+            if (!valid) throw InvalidInput(ErrorCode::invalid_attractor, begin + fault, {Element::vertex(a.vertex)});
         };
         require(in_input_range(a.radius) && a.radius > 0.0,
                 "radius " + std::to_string(a.radius) + ": it must be above 0, and no larger than 1e50");

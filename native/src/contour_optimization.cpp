@@ -133,7 +133,7 @@ void ContourOptimization::search(Partition* partition, int number, const Beat& b
     }
     const Flow flow = stopwatch_.time("flow", [&] { return make_flow(*patch_, band_, options_, beat); });
     if (beat) beat();
-    stopwatch_.time("curvature", [&] { prepare_curvature(beat); });
+    stopwatch_.time("curvature", [&] { prepare_curvature(*patch_, beat); });
     const std::optional<EdgeForm> region = make_region_form(*patch_, flow, beat);
     const ContourGraph graph = stopwatch_.time("graph", [&] {
         return make_graph(surface_, *patch_, band_, flow, context_->energy, options_, *constraints_, steiner_,
@@ -155,10 +155,10 @@ void ContourOptimization::search(Partition* partition, int number, const Beat& b
 }
 
 /// Evaluates the curvature of all vertices of the band at once.
-void ContourOptimization::prepare_curvature(const Beat& beat) const {
+void ContourOptimization::prepare_curvature(const Patch& patch, const Beat& beat) const {
     std::vector<int> vertices;
-    for (std::size_t v = 0; v < patch_->vertex.size(); ++v) {
-        if (band_.side[v] != Side::outside) vertices.push_back(patch_->vertex[v]);
+    for (std::size_t v = 0; v < patch.vertex.size(); ++v) {
+        if (band_.side[v] != Side::outside) vertices.push_back(patch.vertex[v]);
     }
     context_->field.prepare(vertices, beat);
 }

@@ -101,7 +101,7 @@ class ContourOptimization {
     Band band_;
     Exclusion exclusion_;
 
-    void prepare_curvature(const Beat& beat) const;
+    void prepare_curvature(const Patch& patch, const Beat& beat) const;
     bool below(double a, double b) const;
     void accept(const Contour& found, const std::optional<EdgeForm>& region);
     RatioOptions search_options(const Beat& beat) const;
