@@ -65,17 +65,24 @@ INSTANTIATE_TEST_SUITE_P(Threads, Parallel, testing::Values(0, 1, 2, 7));
 
 TEST(ParallelWaiting, the_calling_thread_idles_while_others_work) {
     const std::thread::id caller = std::this_thread::get_id();
-    std::atomic<int> idled = 0, strayed = 0;
+    std::atomic<int> idled = 0, strayed = 0, others = 0;
+    const auto wait_until = [](const auto& holds) {
+        for (int i = 0; i < 10000 && !holds(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    };
+    // The caller's task is over once another thread has one, which lasts until the caller, with nothing left to do, idles.
     const auto task = [&](int) {
-        for (int i = 0; i < 1000 && std::this_thread::get_id() != caller && idled == 0; ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        if (std::this_thread::get_id() == caller) {
+            wait_until([&] { return others > 0; });
+        } else {
+            ++others;
+            wait_until([&] { return idled > 0; });
+        }
     };
     const auto idle = [&] {
         ++idled;
         strayed += std::this_thread::get_id() != caller;
     };
-    // The caller's own tasks are over at once; some other thread waits for it to idle, if there was anything left for one.
-    for (int i = 0; i < 100 && idled == 0; ++i) parallel_for(64, 4, task, idle);
+    parallel_for(2, 2, task, idle);
     EXPECT_GT(idled, 0);
     EXPECT_EQ(strayed, 0);
 }

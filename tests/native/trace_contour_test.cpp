@@ -25,13 +25,14 @@ class Traced : public testing::TestWithParam<std::tuple<bool, int>> {
         if (!contour.closed) contour.points.resize(9);
         return contour;
     }
-    Options options() const {
-        Options options;
-        options.width = 3;
-        options.refinement = steiner;
-        return options;
+    Options made_options() const {
+        Options made;
+        made.width = 3;
+        made.refinement = steiner;
+        return made;
     }
-    const SearchSpace space = search_space(surface, given(), options());
+    const Options options = made_options();
+    const SearchSpace space = search_space(surface, given(), options);
     const RatioResult best = minimum_ratio(space.graph.search);
     const Contour traced = trace_contour(space.graph, space.patch, best.nodes);
 
@@ -57,7 +58,7 @@ TEST_P(Traced, a_contour_has_the_chords_of_its_path_in_their_order) {
 }
 
 TEST_P(Traced, a_contour_measures_what_its_path_weighs) {
-    const SearchContext context(surface, given(), options(), {}, std::nullopt);
+    const SearchContext context(surface, given(), options, {}, std::nullopt);
     const Measure found = measure(surface, context.energy, traced, steiner);
     EXPECT_NEAR(found.numerator, best.numerator, 1e-9);
     EXPECT_NEAR(found.length, best.length, 1e-9);
