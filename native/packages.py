@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Builds the packages for Blender from self-contained wheels, all for one platform.
 
-Each wheel for a Python of Blender 4.2 or later becomes an extension. Those for older releases share one legacy add-on.
+Each wheel for a Python of Blender 4.2 or later becomes an extension. All share one legacy add-on, for older
+releases and for Blenders that a distribution builds with another Python than their release's own.
 """
 
 import argparse
@@ -20,7 +21,7 @@ ID = "minimum_ratio_contours"
 # The Blender releases with each Python: from the first up to, but not including, the second. Before 4.2 there are no
 # extensions.
 EXTENSION_RELEASES = {"cp311": ("4.2.0", "5.1.0"), "cp313": ("5.1.0", None)}
-LEGACY_PYTHONS = ("cp310", "cp311")
+LEGACY_PYTHONS = ("cp310", "cp311", "cp313")  # with the last of them, Debian 13 builds its Blender 4.3
 PLATFORMS = {"linux": "linux", "manylinux": "linux", "musllinux": "linux", "win": "windows", "macosx": "macos"}
 MACHINES = {"x86_64": "x64", "amd64": "x64", "arm64": "arm64", "aarch64": "arm64"}
 

