@@ -2,29 +2,23 @@
 """Prints one line for each of 1,000 searches. Lines are equal if the results are equal to the last bit.
 
 python tests/python/fingerprints.py
+python tests/python/fingerprints.py --write FILE
+python tests/python/fingerprints.py FILE --every 10
+
+The second command writes the searches to a file, and the third runs every tenth of a file's. To compare machines, run
+the same file on each: the searches are made with NumPy, whose own functions differ by processor. Running a file takes
+only NumPy and the module.
 """
 
+import argparse
+import gzip
 import hashlib
+import json
+import sys
+from pathlib import Path
 
 import mrcontour as mrc
 import numpy as np
-from conftest import realistic_contours, surface_of
-from random_cases import annulus, chain, crossing_chain, cylinder, random_energy, torus
-
-FAMILIES = [annulus, cylinder, torus, chain, crossing_chain]
-FLOWS = ["gates", "arc_length", "harmonic"]
-
-
-def random_options(rng):
-    return {
-        "flow": str(rng.choice(FLOWS)),
-        "width": int(rng.integers(1, 6)),
-        "refinement": int(rng.choice([0, 0, 1, 2])),
-        "iterations": int(rng.integers(1, 4)),
-        "length_bias": float(rng.choice([0.0, 0.0, 1.5])),
-        "anchor": float(rng.choice([0.0, 0.7])),
-        **random_energy(rng),
-    }
 
 
 def bytes_of(result):
@@ -32,17 +26,21 @@ def bytes_of(result):
     arrays = [result.positions, result.edge_vertices, result.edge_parameters, result.history]
     numbers = [result.ratio, result.objective, result.salience, result.lower_bound, result.gap]
     counts = [result.statistics[name] for name in ("faces", "cut", "nodes", "arcs", "linear_steps", "passes")]
-    plain = [np.asarray(values).tobytes() for values in (*arrays, numbers, counts)]
+    plain = [np.asarray(values).tobytes() for values in (*arrays, numbers)]
+    plain.append(np.asarray(counts, dtype=np.int64).tobytes())  # NumPy's own integers are shorter on some systems
     return b"|".join([*plain, result.status.encode(), result.reason_code.encode()])
 
 
-def fingerprint(surface, contours, closed, options):
-    """The hash of a result, which must be the same for one thread and several."""
+def fingerprint(case):
+    """The hash of a case's results, which must be the same for one thread and several."""
+    positions, *indices = case["mesh"]
+    surface = mrc.Surface(np.array(positions), *(np.array(part, dtype=np.int32) for part in indices))
+    contours = [np.array(contour, dtype=np.int32) for contour in case["contours"]]
     found = set()
     for threads in (1, 3):
         try:
-            chosen = mrc.Options(**options, threads=threads)
-            results = mrc.optimize_all(surface, contours, closed=closed, options=chosen)
+            options = mrc.Options(**case["options"], threads=threads)
+            results = mrc.optimize_all(surface, contours, closed=case["closed"], options=options)
             content = b"/".join(map(bytes_of, results))
         except ValueError as error:
             content = type(error).__name__.encode()
@@ -50,20 +48,43 @@ def fingerprint(surface, contours, closed, options):
     return " ".join(sorted(found)) + (" THREADS DIFFER" if len(found) > 1 else "")
 
 
+def made_cases():
+    from fingerprint_cases import made_cases  # needs the packages of the tests
+
+    return made_cases()
+
+
+def write(cases, file):
+    """One case a line, compressed, without a date. JSON gives back the same floats."""
+    lines = "".join(json.dumps(case) + "\n" for case in cases)
+    file.write_bytes(gzip.compress(lines.encode(), mtime=0))
+
+
+def read(file):
+    return map(json.loads, gzip.decompress(file.read_bytes()).splitlines())
+
+
+def spread(cases, every):
+    """Every n-th case, a little later each time, as kinds of cases alternate."""
+    return (case for i, case in enumerate(cases) if i % every == i // every % every)
+
+
 def main():
-    realistic = realistic_contours()
-    for seed in range(800):
-        rng = np.random.default_rng(seed)
-        family = FAMILIES[seed % len(FAMILIES)]
-        mesh, contour = family(rng)
-        closed = family not in (chain, crossing_chain)
-        options = random_options(rng) | ({"ends": "border"} if family is crossing_chain else {})
-        print(f"{family.__name__}-{seed}", fingerprint(surface_of(mesh), [contour], closed, options))
-    for seed in range(200):
-        rng = np.random.default_rng(seed)
-        name, mesh, contour = realistic[seed % len(realistic)]
-        others = [loop for other, same, loop in realistic if same is mesh and not set(loop) & set(contour)]
-        print(f"{name}-{seed}", fingerprint(surface_of(mesh), [contour, *others[:2]], True, random_options(rng)))
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("file", type=Path, nargs="?", help="what --write wrote; without it, the cases are made")
+    parser.add_argument("--write", action="store_true", help="write the cases to the file instead of searching")
+    parser.add_argument("--every", type=int, default=1, metavar="N", help="take only every N-th case")
+    arguments = parser.parse_args()
+    if arguments.write and not arguments.file:
+        parser.error("--write needs a file")
+    cases = read(arguments.file) if arguments.file and not arguments.write else made_cases()
+    cases = spread(cases, arguments.every)
+    if arguments.write:
+        write(cases, arguments.file)
+        return
+    sys.stdout.reconfigure(newline="\n")  # the same bytes on Windows
+    for case in cases:
+        print(case["name"], fingerprint(case), flush=True)
 
 
 if __name__ == "__main__":
