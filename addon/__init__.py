@@ -13,6 +13,7 @@ bl_info = {
     "category": "Mesh",
 }
 VERSION = ".".join(map(str, bl_info["version"]))  # stored here because Blender deletes the bl_info of an extension
+TARGET = ""  # packaging writes here what the package is for, such as linux-x64-cp311; the source is for none
 
 # An upgrade in a running Blender reloads only this file: drop the others, so that they are loaded again. The compiled
 # module cannot be reloaded; core/native.py checks its version.

@@ -36,9 +36,13 @@ def read_name(wheel):
 
 
 def package_name(wheels, kind):
+    return f"{ID}-{read_name(wheels[0])[0]}-{kind}-{package_target(wheels)}.zip"
+
+
+def package_target(wheels):
+    """What a package with these wheels is for: platform and Pythons, such as linux-x64-cp310-cp311."""
     names = [read_name(wheel) for wheel in wheels]
-    version, _, platform = names[0]
-    return f"{ID}-{version}-{kind}-{platform}-{'-'.join(python for _, python, _ in names)}.zip"
+    return "-".join([names[0][2], *(python for _, python, _ in names)])
 
 
 def manifest(wheel):
@@ -53,12 +57,14 @@ def manifest(wheel):
     return text + f'platforms = ["{platform}"]\nwheels = ["./wheels/{wheel.name}"]\n'
 
 
-def sources(version):
-    """The Python files of the add-on, by their names in the package. The version is set in `__init__.py`."""
+def sources(wheels):
+    """The Python files of the add-on, by their names in the package. `__init__.py` learns what only a package knows."""
     files = {path.relative_to(ADDON).as_posix(): path.read_bytes() for path in sorted(ADDON.rglob("*.py"))}
-    numbers = ", ".join(version.split("."))
-    files["__init__.py"] = files["__init__.py"].replace(b'"version": (0, 0, 0)', f'"version": ({numbers})'.encode())
-    return files
+    numbers = ", ".join(read_name(wheels[0])[0].split("."))
+    text = files["__init__.py"].decode()
+    text = text.replace('"version": (0, 0, 0)', f'"version": ({numbers})')
+    text = text.replace('\nTARGET = ""', f'\nTARGET = "{package_target(wheels)}"')
+    return files | {"__init__.py": text.encode()}
 
 
 def build_extension(wheel, output, tool):
@@ -66,7 +72,7 @@ def build_extension(wheel, output, tool):
     package = output / package_name([wheel], "extension")
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
-        for name, content in sources(read_name(wheel)[0]).items():
+        for name, content in sources([wheel]).items():
             (folder / name).parent.mkdir(exist_ok=True)
             (folder / name).write_bytes(content)
         (folder / "blender_manifest.toml").write_text(manifest(wheel), encoding="utf-8")
@@ -84,7 +90,7 @@ def build_legacy(wheels, output):
     """Builds one folder with the add-on, the modules for all Python versions, the libraries they need, and the
     licenses."""
     package = output / package_name(wheels, "legacy")
-    files = {"": b""} | sources(read_name(wheels[0])[0])
+    files = {"": b""} | sources(wheels)
     for wheel in wheels:
         files |= _library_files(wheel)
     with ZipFile(package, "w", ZIP_DEFLATED) as content:

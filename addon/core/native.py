@@ -5,7 +5,8 @@ import importlib
 import sys
 from pathlib import Path
 
-from .. import VERSION  # of the add-on; the compiled module must be of the same
+from .. import TARGET, VERSION  # of the add-on; the compiled module must be of the same version
+from . import target
 
 _UNPACKAGED = "0.0.0"  # what the source says: it goes with any module
 _ADDON = __package__.rpartition(".")[0]  # the add-on's own package, in whose folder a legacy add-on has the module
@@ -54,18 +55,23 @@ def _import():
                 if error.name not in ("mrcontour", f"{_ADDON}.mrcontour"):
                     raise
     except ImportError as error:
-        raise Unavailable(f"The compiled library does not load: {error}") from error
-    raise Unavailable(_missing())
+        reason = str(error).partition("\n")[0]  # macOS lists every folder that it has searched
+        raise Unavailable(_mismatch() or f"The compiled library does not load: {reason}") from error
+    raise Unavailable(_mismatch() or _missing())
+
+
+def _mismatch():
+    return target.mismatch(TARGET) if TARGET else ""
 
 
 def _missing():
     python = f"Python {sys.version_info.major}.{sys.version_info.minor}"
-    folder = Path(__file__).parents[1]
-    built = sorted(path.name for path in folder.glob("mrcontour*") if path.suffix in (".so", ".pyd"))
+    if TARGET:
+        return "The compiled library is missing from this package: install it again"
+    built = sorted(path.name for path in Path(__file__).parents[1].glob("mrcontour*") if path.suffix in (".so", ".pyd"))
     if built:
         return (
-            f"The compiled library is for another system or Blender ({built[0]}; this Blender has {python}): "
-            "install the package made for yours"
+            f"The compiled library was built for another Python ({built[0]}; this Blender has {python}): build it again"
         )
     return (
         "This copy of the add-on is its source, without the compiled library mrcontour: "

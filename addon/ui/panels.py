@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The sidebar panels and the numbers of the last result."""
 
-import textwrap
-
 import bpy
 from bpy.props import CollectionProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
 from ..core import messages, native
 from ..core.parameters import CONSTRAINTS, MAIN, MORE, NETWORK
 from . import show_directions
+from .wrapped_text import draw_text
 
 OPERATOR = "mesh.optimize_contour"
 NETWORK_OPERATORS = ("mesh.optimize_seams", "mesh.optimize_segmentation")
@@ -168,7 +167,7 @@ class VIEW3D_PT_minimum_ratio_contours(InSidebar, bpy.types.Panel):
         layout = self.layout
         problem = native.problem()
         if problem:
-            _draw_text(layout, context, problem, "ERROR")
+            draw_text(layout, context, problem, "ERROR")
             return
         column = layout.column(align=True)
         column.scale_y = 1.3
@@ -248,7 +247,7 @@ def _last_properties(context):
 
 
 def _draw_result(layout, context, last):
-    _draw_text(layout, context, last.message, "INFO")
+    draw_text(layout, context, last.message, "INFO")
     for numbers in last.contours[:_SHOWN]:
         _draw_numbers(layout.box(), context, numbers, several=len(last.contours) > 1)
     if len(last.contours) > _SHOWN:
@@ -259,9 +258,9 @@ def _draw_numbers(box, context, numbers, several):
     """Draw all numbers of a single contour. For several, draw the reason of each, which the message does not assign."""
     icon = "CHECKMARK" if numbers.status == "improved" else "DOT"
     box = box.column(align=True)
-    _draw_text(box, context, f"{numbers.place}: {numbers.status}", icon)
+    draw_text(box, context, f"{numbers.place}: {numbers.status}", icon)
     if several:
-        _draw_text(box, context, numbers.reason or numbers.salience, "BLANK1")
+        draw_text(box, context, numbers.reason or numbers.salience, "BLANK1")
         return
     units = context.scene.unit_settings
     length = bpy.utils.units.to_string(units.system, "LENGTH", numbers.length * units.scale_length, precision=3)
@@ -273,14 +272,6 @@ def _draw_numbers(box, context, numbers, several):
     )
     for line in filter(None, lines):
         box.label(text=line, icon="BLANK1")
-
-
-def _draw_text(layout, context, text, icon):
-    """Draw wrapped text, since labels do not wrap. Margins, icon and tabs take about 70 points, a character 6.5."""
-    points = context.region.width / context.preferences.system.ui_scale
-    column = layout.column(align=True)
-    for index, line in enumerate(textwrap.wrap(text, max(16, int((points - 70) / 6.5)))):
-        column.label(text=line, icon=icon if index == 0 else "BLANK1")
 
 
 def _fill(numbers, outcome):

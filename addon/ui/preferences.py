@@ -6,6 +6,7 @@ import bpy
 from ..core import native
 from . import panels
 from .operators import ContourOutput, ContourSettings, properties_of
+from .wrapped_text import draw_text
 
 _PROPERTIES = properties_of(ContourSettings, ContourOutput)
 _ADDON = __package__.rpartition(".")[0]  # the name under which Blender knows the add-on
@@ -31,7 +32,7 @@ class ContourPreferences(bpy.types.AddonPreferences):
         layout = self.layout
         problem = native.problem()
         if problem:
-            layout.label(text=problem, icon="ERROR")
+            draw_text(layout, context, problem, "ERROR")
         layout.label(text="Operator settings at the start of each session:")
         row = layout.row()
         panels.draw_settings(row.column(), self)

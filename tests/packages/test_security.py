@@ -11,7 +11,19 @@ from conftest import ROOT
 SOURCES = sorted((ROOT / "addon").rglob("*.py"))
 BLENDER = {"addon_utils", "bl_operators", "bl_ui", "blf", "bmesh", "bpy", "bpy_extras", "gpu", "gpu_extras"}
 HARMLESS = {"collections", "contextlib", "dataclasses", "enum", "functools", "heapq", "importlib", "itertools", "math"}
-HARMLESS |= {"operator", "pathlib", "queue", "re", "sys", "textwrap", "threading", "time", "types", "typing"}
+HARMLESS |= {
+    "operator",
+    "pathlib",
+    "platform",
+    "queue",
+    "re",
+    "sys",
+    "textwrap",
+    "threading",
+    "time",
+    "types",
+    "typing",
+}
 ALLOWED = BLENDER | HARMLESS | {"mathutils", "numpy"}
 FORBIDDEN = {"__import__", "compile", "eval", "exec", "execfile", "fromfile", "genfromtxt", "memmap", "popen", "rename"}
 FORBIDDEN |= {"as_module", "chmod", "python_file_run", "run_script", "screenshot"}
