@@ -8,6 +8,7 @@ from rough_loops import Polygons
 
 ROUGH = "rough_loop."  # a boolean edge attribute for each rough loop: this, then the loop's name
 SETTINGS = "settings."  # a custom property of the object for each rough loop that needs more than the defaults
+SEAM = ".uv_seam"
 TRUE = "true_loop."  # likewise for the correct loop, known by construction
 
 
@@ -92,6 +93,19 @@ def ordered_loop(mesh, mask):
         loop.append(here)
         last, here = here, next(v for v in neighbors[here] if v != last)
     return loop
+
+
+def mark_seams(mesh, mask):
+    """Mark only these edges as seams, in a form that survives in a file for any Blender.
+
+    Blender 5.1 and 5.2 lose the seams of files from before 3.5, which are flags, but not an attribute of the name that
+    came in between. Each of the releases that keep seams there takes it for its own.
+    """
+    mesh.edges.foreach_set("use_seam", np.ascontiguousarray(mask))
+    if bpy.app.version < (3, 5, 0):
+        if SEAM not in mesh.attributes:
+            mesh.attributes.new(SEAM, "BOOLEAN", "EDGE")
+        mesh.attributes[SEAM].data.foreach_set("value", np.ascontiguousarray(mask))
 
 
 def select_edges(mesh, mask):

@@ -126,7 +126,7 @@ def make(sample):
     ob.data.polygons.foreach_set("use_smooth", np.ones(len(ob.data.polygons), bool))
     store_loops(sample, ob)
     if sample == "character":  # its rough loops are also seams
-        ob.data.edges.foreach_set("use_seam", blender_meshes.read(ob.data.edges, "select", 1, bool))
+        blender_meshes.mark_seams(ob.data, blender_meshes.read(ob.data.edges, "select", 1, bool))
     ob.select_set(True)
     bpy.context.scene.tool_settings.mesh_select_mode = (False, True, False)
     path = HERE / f"{sample}.blend"

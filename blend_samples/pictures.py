@@ -20,6 +20,7 @@ SIZE, GAP = 700, 12  # pixels of one half, and between the halves
 OVERVIEW_SIZE = 344
 SHEET_COLUMNS = 3
 MARGIN, OVERVIEW_MARGIN = 2.0, 1.3  # width of the picture, divided by that of the contours
+SMOOTH_ANGLE = 0.8  # radians: edges sharper than this are drawn sharp
 SHADES = 44  # of each color in the overview, for a small file
 GREY, GREEN = (0.85, 0.85, 0.83), (0.55, 0.86, 0.52)
 ORANGE, BLUE, BLACK, DARK_GREEN = (1.0, 0.13, 0.0), (0.0, 0.10, 1.0), (0.02, 0.02, 0.02), (0.10, 0.32, 0.09)
@@ -169,7 +170,10 @@ def _colored_copy(scene, ob, band):
     index[band] = 1
     mesh.polygons.foreach_set("material_index", index)
     mesh.polygons.foreach_set("use_smooth", np.ones(len(mesh.polygons), bool))
-    mesh.use_auto_smooth, mesh.auto_smooth_angle = True, 0.8
+    if hasattr(mesh, "use_auto_smooth"):  # up to Blender 4.0
+        mesh.use_auto_smooth, mesh.auto_smooth_angle = True, SMOOTH_ANGLE
+    else:
+        mesh.set_sharp_from_angle(angle=SMOOTH_ANGLE)
     images.link(scene, "surface", mesh)
     return mesh
 

@@ -66,7 +66,7 @@ def made_sample(path):
     ob = bpy.context.view_layer.objects.active
     loops = blender_meshes.stored_loops(ob.data, blender_meshes.ROUGH)
     truths = blender_meshes.stored_loops(ob.data, blender_meshes.TRUE)
-    ob.data.edges.foreach_set("use_seam", np.zeros(len(ob.data.edges), bool))  # only the contours found will be seams
+    blender_meshes.mark_seams(ob.data, np.zeros(len(ob.data.edges), bool))  # only the contours found will be seams
     return Sample(path.stem, ob, loops, stored_settings(ob, loops), truths, (0, 0, 1))
 
 
@@ -180,7 +180,9 @@ def off_truth(sample, name, found):
 def save(sample, output):
     """Save the result as a .blend: rough and found loops as edge attributes, the found ones as seams and selected."""
     mesh = sample.ob.data
-    blender_meshes.select_edges(mesh, blender_meshes.read(mesh.edges, "use_seam", 1, bool))
+    seams = blender_meshes.read(mesh.edges, "use_seam", 1, bool)
+    blender_meshes.mark_seams(mesh, seams)
+    blender_meshes.select_edges(mesh, seams)
     bpy.context.preferences.filepaths.save_version = 0
     bpy.ops.wm.save_as_mainfile(filepath=str(output / f"{sample.name}.result.blend"), compress=True, copy=True)
 

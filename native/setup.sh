@@ -32,7 +32,8 @@ as_root() {
 
 install_packages() {  # PACKAGE...
     local installed missing
-    installed=$(dpkg-query -W -f='${db:Status-Status} ${Package}\n' "$@" 2>/dev/null | sed -n 's/^installed //p' || true)
+    # With the names that packages provide: Debian 13 has some libraries under names that end in t64.
+    installed=$(dpkg-query -W -f='${db:Status-Status} ${Package}, ${Provides}\n' | sed -n 's/ ([^)]*)//g; s/^installed //p' | tr -s ', ' '\n')
     mapfile -t missing < <(comm -23 <(printf '%s\n' "$@" | sort -u) <(sort -u <<<"$installed"))
     if [ ${#missing[@]} = 0 ]; then return 0; fi
     say "installing with apt: ${missing[*]}"

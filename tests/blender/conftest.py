@@ -6,18 +6,6 @@ import pytest
 from minimum_ratio_contours import api
 
 
-@bpy.app.handlers.persistent
-def restore_seams(*_):
-    """Copy seams to where Blender 5.1 expects them: 3.4, which saved the samples, names the attribute differently."""
-    for mesh in bpy.data.meshes:
-        if ".uv_seam" in mesh.attributes and not any(edge.use_seam for edge in mesh.edges):
-            mesh.edges.foreach_set("use_seam", [seam.value for seam in mesh.attributes[".uv_seam"].data])
-
-
-if bpy.app.version >= (5, 1, 0):
-    bpy.app.handlers.load_post.append(restore_seams)
-
-
 @pytest.fixture(autouse=True)
 def empty_scene():
     if bpy.context.mode != "OBJECT":

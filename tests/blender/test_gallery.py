@@ -50,6 +50,26 @@ def has_selection(path):
     return any(edge.select for edge in bpy.context.view_layer.objects.active.data.edges)
 
 
+@pytest.mark.parametrize("path", sorted(SAMPLES.glob("*.blend")), ids=lambda path: path.stem)
+def test_a_sample_opens_with_everything_saved_in_it(path):
+    """Blender 3.4 saved them; later releases store flags, selections and materials in other ways."""
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    mesh = bpy.context.view_layer.objects.active.data
+    loops = blender_meshes.stored_loops(mesh, blender_meshes.ROUGH).values()
+    rough = np.any([blender_meshes.edge_mask(mesh, loop) for loop in loops] or [np.zeros(len(mesh.edges))], axis=0)
+    selected, seams, sharp = (flags(mesh.edges, name) for name in ("select", "use_seam", "use_edge_sharp"))
+    assert (selected == rough).all()
+    assert (seams == (selected if path.stem == "character" else False)).all()
+    assert not sharp.any()
+    assert flags(mesh.polygons, "use_smooth").all()
+    materials = blender_meshes.read(mesh.polygons, "material_index", 1, np.int32)
+    assert len(set(materials)) == (6 if path.stem == "hand_parts" else 1)
+
+
+def flags(elements, name):
+    return blender_meshes.read(elements, name, 1, bool)
+
+
 @pytest.mark.parametrize(
     ("sample", "settings", "stay"),
     [
