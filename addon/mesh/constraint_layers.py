@@ -77,7 +77,7 @@ def _marked(obj, marks):
         "SHARP": lambda: attributes.read(obj, "edges", "use_edge_sharp", bool),
         "CREASE": lambda: _creases(obj) > 0,
     }
-    marked = np.logical_or.reduce([readers[mark]() for mark in sorted(marks)])
+    marked = np.any([readers[mark]() for mark in sorted(marks)], axis=0)
     return attributes.read(obj, "edges", "vertices", np.int32, 2)[marked]
 
 
