@@ -87,12 +87,17 @@ def describe(result):
 def improve(api, obj, settings):
     """Move the seams of one object, and return their results."""
     try:
-        return {
-            "object": obj.name,
-            "seams": [describe(seam) for seam in api.optimize_seams(obj, apply=True, **settings)],
-        }
+        seams = [describe(seam) for seam in api.optimize_seams(obj, apply=True, **settings)]
+        forget_old_seams(obj.data)
+        return {"object": obj.name, "seams": seams}
     except ValueError as error:
         return {"object": obj.name, "seams": [], "error": str(error)}
+
+
+def forget_old_seams(mesh):
+    """Remove the copy of the seams that samples have for Blender 5.1. Releases after 3.4 keep it up to date."""
+    if bpy.app.version < (3, 5, 0) and ".uv_seam" in mesh.attributes:
+        mesh.attributes.remove(mesh.attributes[".uv_seam"])
 
 
 def run():

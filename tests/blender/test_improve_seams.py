@@ -60,6 +60,17 @@ def test_seams_move_in_the_output_file(files, monkeypatch, capfd):
     assert seams(given) == edge_set(START)
 
 
+def test_a_sample_keeps_no_old_seams_for_later_releases(tmp_path, monkeypatch, capfd):
+    written = tmp_path / "out.blend"
+    assert run(monkeypatch, capfd, ROOT / "blend_samples" / "character.blend", written)[0] == 0
+    bpy.ops.wm.open_mainfile(filepath=str(written), load_ui=False)
+    mesh = bpy.data.objects["character"].data
+    seams = [edge.use_seam for edge in mesh.edges]
+    copy = mesh.attributes.get("uv_seam") or mesh.attributes.get(".uv_seam")
+    assert any(seams)
+    assert not copy or [seam.value for seam in copy.data] == seams
+
+
 @pytest.mark.parametrize("page", ["README.md", "addon/README.md"])
 def test_the_command_line_in_the_manual(page, files, monkeypatch, capfd):
     given, written = files
