@@ -30,7 +30,7 @@ std::string text_of(const Contour& contour) {
 
 void bind_contour(py::module_& module) {
     py::class_<Contour> contour(
-        module, "Contour",
+        module, "Contour", py::module_local(),
         "A closed loop or an open curve: vertices, or points on edges. An immutable value: two are equal where their points\n"
         "and closed are, and len is the number of points. Accepted wherever vertices are, with its own closed.");
     define_constructor(

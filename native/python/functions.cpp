@@ -279,7 +279,8 @@ std::string overloads_by_sides(const std::string& documentation) {
 }
 
 void bind_curvature(py::module_& module) {
-    py::class_<PyCurvature>(module, "Curvature", "Principal curvatures over all vertices, positive where convex (3.4).")
+    py::class_<PyCurvature>(module, "Curvature", py::module_local(),
+                            "Principal curvatures over all vertices, positive where convex (3.4).")
         .def(py::pickle(
             [](const PyCurvature& c) { return py::make_tuple(c.kappa_min, c.kappa_max, c.direction_min, c.direction_max); },
             [](const py::tuple& state) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The Python module: checks and converts arrays, releases the interpreter's lock, calls. No algorithm lives here.
+// The Python module: checks and converts arrays, releases the interpreter's lock, calls. No algorithm lives here. All classes are
+// local to it (py::module_local), because a Blender with two copies of the add-on loads two copies of the module.
 #include "bindings.h"
 
 PYBIND11_MODULE(mrcontour, module) {

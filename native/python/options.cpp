@@ -217,7 +217,7 @@ std::string keywords(const Options& defaults) {
 bool is_option(const std::string& name) { return find_row(name) != nullptr; }
 
 void bind_options(py::module_& module) {
-    py::class_<Options> options(module, "Options", documentation().c_str());
+    py::class_<Options> options(module, "Options", py::module_local(), documentation().c_str());
     options.def("__repr__", &text_of);
     options.def("__hash__", [](const Options& o) { return py::hash(py::tuple(values_of(o).attr("values")())); });
     define_equality(options);

@@ -73,7 +73,7 @@ Scales scales_from_state(const py::tuple& state) {
 
 void bind_scales(py::module_& module) {
     py::class_<Scales> scales(
-        module, "Scales",
+        module, "Scales", py::module_local(),
         "The scales of a contour, fixed before its first iteration. K and kappa_0 are in one over the mesh's unit of length.");
     scales.def("__hash__", [](const Scales& s) { return py::hash(scales_state(s)); });
     define_equality(scales);
@@ -104,7 +104,7 @@ mrc::Measure measure_from_state(const py::tuple& state) {
 }
 
 void bind_measure(py::module_& module) {
-    py::class_<mrc::Measure> measure(module, "Measure", "The energy of a contour (eq. 3.3).");
+    py::class_<mrc::Measure> measure(module, "Measure", py::module_local(), "The energy of a contour (eq. 3.3).");
     measure.def("__hash__", [](const mrc::Measure& m) { return py::hash(measure_state(m)); });
     define_equality(measure);
     define_copies(measure);
@@ -232,7 +232,7 @@ void bind_results(py::module_& module) {
     bind_scales(module);
     bind_measure(module);
     py::class_<PyResult> result(
-        module, "Result",
+        module, "Result", py::module_local(),
         "What optimize found. Ratios are in one over the mesh's unit of length (denominator 'arcs': without unit).");
     define_copies(result);
     result.def(py::pickle(&result_state, &result_from_state));

@@ -86,7 +86,7 @@ std::unique_ptr<mrc::Surface> surface_from_state(const py::tuple& state) {
 
 void bind_surface(py::module_& module) {
     py::class_<mrc::Surface> surface(
-        module, "Surface",
+        module, "Surface", py::module_local(),
         "A validated, immutable mesh with its adjacency. It keeps copies: the arrays may change afterwards.\n"
         "It may be used from several threads at once.");
     define_constructor_with_advice(
