@@ -33,14 +33,21 @@ def _modules():
 
 def register():
     from . import api  # noqa: F401  for scripts, loaded with the add-on
+    from .ui import second_copy
 
+    if second_copy.wait_for_the_first():
+        return
     for module in _modules():
         module.register()
 
 
 def unregister():
     from .mesh import surface_cache
+    from .ui import second_copy
 
+    if second_copy.stop_waiting():
+        return
     for module in reversed(_modules()):
         module.unregister()
     surface_cache.forget()
+    second_copy.wake_another()

@@ -5,6 +5,7 @@ import platform
 import sys
 
 _SYSTEMS = {"linux": "Linux", "windows": "Windows", "macos": "macOS"}
+_NAMES = {"win32": "windows", "darwin": "macos"}  # where Python has another name for a system
 _MACHINES = {"x86_64": "x64", "amd64": "x64", "aarch64": "arm64"}
 
 
@@ -26,8 +27,8 @@ def mismatch(target):
 
 def _platform():
     """This platform as Blender and the packages name it, such as linux-x64."""
-    system, machine = platform.system().lower(), platform.machine().lower()
-    return f"{'macos' if system == 'darwin' else system}-{_MACHINES.get(machine, machine)}"
+    machine = platform.machine().lower()
+    return f"{_NAMES.get(sys.platform, sys.platform)}-{_MACHINES.get(machine, machine)}"
 
 
 def _system(name):

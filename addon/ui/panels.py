@@ -6,7 +6,7 @@ from bpy.props import CollectionProperty, FloatProperty, IntProperty, PointerPro
 
 from ..core import messages, native
 from ..core.parameters import CONSTRAINTS, MAIN, MORE, NETWORK
-from . import show_directions
+from . import second_copy, show_directions
 from .wrapped_text import draw_text
 
 OPERATOR = "mesh.optimize_contour"
@@ -169,6 +169,9 @@ class VIEW3D_PT_minimum_ratio_contours(InSidebar, bpy.types.Panel):
         if problem:
             draw_text(layout, context, problem, "ERROR")
             return
+        note = second_copy.note()
+        if note:
+            draw_text(layout, context, note, "ERROR")
         column = layout.column(align=True)
         column.scale_y = 1.3
         column.operator(OPERATOR, icon="MOD_EDGESPLIT")

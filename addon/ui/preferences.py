@@ -4,7 +4,7 @@
 import bpy
 
 from ..core import native
-from . import panels
+from . import panels, second_copy
 from .operators import ContourOutput, ContourSettings, properties_of
 from .wrapped_text import draw_text
 
@@ -30,8 +30,7 @@ class ContourPreferences(bpy.types.AddonPreferences):
 
     def draw(self, context):
         layout = self.layout
-        problem = native.problem()
-        if problem:
+        for problem in filter(None, (native.problem(), second_copy.note())):
             draw_text(layout, context, problem, "ERROR")
         layout.label(text="Operator settings at the start of each session:")
         row = layout.row()

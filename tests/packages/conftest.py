@@ -7,6 +7,7 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from zipfile import ZipFile
 
 import pytest
 from packaging.version import Version
@@ -35,12 +36,15 @@ class Blender:
         printed = subprocess.run([self.command[0], "--version"], capture_output=True, text=True, check=True).stdout
         return Version(re.search(r"Blender ([\d.]+)", printed)[1]) >= Version("4.2")
 
-    def run_steps(self, profile, *steps):
-        """The state after each step of in_blender.py, all in one process."""
+    def run_steps(self, profile, *steps, before=()):
+        """The state after each step of in_blender.py, all in one process.
+
+        before: the start of a command that runs Blender, such as one that takes rights away
+        """
         script = Path(__file__).with_name("in_blender.py")
         profile.mkdir(exist_ok=True)
         run = subprocess.run(
-            [*map(str, self.command), str(script), "--", *map(str, steps)],
+            [*before, *map(str, self.command), str(script), "--", *map(str, steps)],
             env=os.environ
             | {
                 "HOME": str(profile / "home"),
@@ -55,6 +59,7 @@ class Blender:
         states = [json.loads(line[6:]) for line in run.stdout.splitlines() if line.startswith("STATE ")]
         assert run.returncode == 0, run.stdout + run.stderr
         assert len(states) == len(steps), run.stdout + run.stderr
+        assert "Traceback" not in run.stdout + run.stderr, run.stdout + run.stderr
         return states
 
 
@@ -83,8 +88,11 @@ def pytest_generate_tests(metafunc):
     for name, kinds in {"blender": ("legacy", "extension"), "extension_blender": ("extension",)}.items():
         if name in metafunc.fixturenames:
             chosen = [blender for blender in blenders(metafunc.config) if blender.kind in kinds]
-            values = [(blender, packages_for(metafunc.config, blender.python)) for blender in chosen]
             ids = [blender.command[0].parents[1].name for blender in chosen]
+            if "packages" not in metafunc.fixturenames:
+                metafunc.parametrize(name, chosen, ids=ids)
+                return
+            values = [(blender, packages_for(metafunc.config, blender.python)) for blender in chosen]
             metafunc.parametrize((name, "packages"), values, ids=ids)
             return
     if "packages" in metafunc.fixturenames:
@@ -110,6 +118,15 @@ def packages_for(config, python):
 def blender_tool(pytestconfig):
     """The extension tool of the first release given."""
     return next(blender.tool for blender in blenders(pytestconfig) if blender.tool)
+
+
+def wheel_of(folder, python, platform):
+    """An empty stand-in for a wheel of another system."""
+    wheel = folder / f"mrcontour-0.1.0-{python}-{python}-{platform}.whl"
+    with ZipFile(wheel, "w") as content:
+        content.writestr(f"mrcontour.{python}-{platform}.pyd", b"")
+        content.writestr("mrcontour-0.1.0.dist-info/licenses/LICENSE", b"")
+    return wheel
 
 
 def only(paths):

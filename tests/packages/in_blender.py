@@ -4,7 +4,8 @@
 blender -b --factory-startup --python-exit-code 1 --python tests/packages/in_blender.py -- STEP...
 python tests/packages/in_blender.py -- STEP...                  with an installed bpy wheel
 
-A step is the path of a package to install and enable, or one of: look, enable, disable, uninstall.
+A step is the path of a package to install and enable, or one of: look, uninstall, enable, disable. The last two may
+name another copy of the add-on, after a colon.
 """
 
 import importlib
@@ -30,27 +31,24 @@ def module():
     return next((name for name in names if name.rpartition(".")[2] == ID), None)
 
 
-def is_extension(package):
-    with ZipFile(package) as content:
-        return any(Path(name).name == "blender_manifest.toml" for name in content.namelist())
-
-
 def install(package):
-    if bpy.app.version >= (4, 2) and is_extension(package):
+    with ZipFile(package) as content:
+        names = content.namelist()
+    if bpy.app.version >= (4, 2) and any(Path(name).name == "blender_manifest.toml" for name in names):
         bpy.ops.extensions.package_install_files(
             filepath=package, repo="user_default", enable_on_install=True, overwrite=True
         )
     else:
         bpy.ops.preferences.addon_install(filepath=package, overwrite=True)
-        bpy.ops.preferences.addon_enable(module=ID)
+        bpy.ops.preferences.addon_enable(module=names[0].partition("/")[0])
 
 
-def enable():
-    bpy.ops.preferences.addon_enable(module=module())
+def enable(name=None):
+    bpy.ops.preferences.addon_enable(module=name or module())
 
 
-def disable():
-    bpy.ops.preferences.addon_disable(module=module())
+def disable(name=None):
+    bpy.ops.preferences.addon_disable(module=name or module())
 
 
 def uninstall():
@@ -77,27 +75,31 @@ def optimize():
 
 
 def state():
-    """Whether the add-on is installed and enabled, its version and that of its library, and what its operator says."""
-    name = module()
-    enabled = any(addon.module.rpartition(".")[2] == ID for addon in bpy.context.preferences.addons)
+    """Whether the add-on is installed and enabled; what its operator says; which copy has registered that, and the
+    versions of the copy and of its library; what each enabled copy notes."""
+    enabled = [addon.module for addon in bpy.context.preferences.addons]
+    operator = getattr(bpy.types, "MESH_OT_optimize_contour", None)
     found = {
-        "installed": name is not None,
-        "enabled": enabled,
-        "operator": hasattr(bpy.types, "MESH_OT_optimize_contour"),
+        "installed": module() is not None,
+        "enabled": any(name.rpartition(".")[2] == ID for name in enabled),
+        "operator": operator is not None,
     }
-    if enabled:
+    if operator:
+        name = operator.__module__.removesuffix(".ui.operators")
         native = importlib.import_module(name + ".core.native")
-        found |= {"says": optimize(), "problem": native.problem(), "version": native.VERSION}
+        found |= {"module": name, "says": optimize(), "problem": native.problem(), "version": native.VERSION}
         library = sys.modules.get(name + ".mrcontour") or sys.modules.get("mrcontour")
         found["library"] = getattr(library, "__version__", None)
         found["library_file"] = getattr(library, "__file__", None)
-    return found
+    copies = {name: sys.modules.get(name + ".ui.second_copy") for name in enabled}
+    return found | {"notes": {name: copy.note() for name, copy in copies.items() if copy}}
 
 
 STEPS = {"look": lambda: None, "enable": enable, "disable": disable, "uninstall": uninstall}
 for step in sys.argv[sys.argv.index("--") + 1 :]:
-    if step in STEPS:
-        STEPS[step]()
+    action, *names = step.split(":")
+    if action in STEPS:
+        STEPS[action](*names)
     else:
-        install(step)
+        install(str(Path(step).resolve()))
     print("STATE " + json.dumps(state()), flush=True)

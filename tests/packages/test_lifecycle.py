@@ -2,10 +2,12 @@
 """The packages as users handle them: installing, disabling, enabling, upgrading and removing; installing the source."""
 
 import io
+import os
 from zipfile import ZIP_DEFLATED, ZipFile
 
+import packages as maker
 import pytest
-from conftest import ROOT
+from conftest import ROOT, wheel_of
 
 OLD = "0.0.9"  # the same length as the current version, so that replacing it in a compiled library is safe
 
@@ -84,3 +86,86 @@ def test_source_installed_by_mistake_says_what_to_do_and_the_package_fixes_it(
     assert ". " not in mistaken["problem"], "one sentence"
     assert mistaken["problem"] in mistaken["says"]
     assert works(fixed, version)
+
+
+def test_legacy_add_on_of_another_system_says_what_to_install(blender, tmp_path):
+    foreign = maker.build_legacy([wheel_of(tmp_path, "cp310", "win_amd64")], tmp_path)
+    (state,) = blender.run_steps(tmp_path / "profile", foreign)
+    assert state["problem"].startswith("This package is for Windows x64 and Python 3.10, this Blender runs on Linux ")
+    assert ": install the package whose name has linux-" in state["problem"]
+    assert ". " not in state["problem"], "one sentence"
+    assert state["problem"] in state["says"]
+
+
+@pytest.mark.parametrize(("python", "platform"), [("cp311", "win_amd64"), ("cp313", "win_amd64")])
+def test_blender_itself_refuses_an_extension_of_another_system(extension_blender, tmp_path, python, platform):
+    foreign = maker.build_extension(wheel_of(tmp_path, python, platform), tmp_path, extension_blender.tool)
+    (state,) = extension_blender.run_steps(tmp_path / "profile", foreign)
+    assert not state["installed"]
+
+
+ANOTHER = "another_copy"
+
+
+@pytest.fixture
+def another(packages, tmp_path):
+    """A legacy add-on with the same files in a folder of another name."""
+    package = tmp_path / "another.zip"
+    with ZipFile(packages["legacy"]) as given, ZipFile(package, "w") as made:
+        for name in given.namelist():
+            made.writestr(name.replace(maker.ID, ANOTHER, 1), given.read(name))
+    return package
+
+
+def test_second_copy_waits_until_the_first_is_disabled(blender, packages, version, another, tmp_path):
+    steps = [another, f"disable:{ANOTHER}", f"enable:{ANOTHER}", "disable", "enable", f"disable:{ANOTHER}"]
+    states = blender.run_steps(tmp_path / "profile", packages[blender.kind], *steps)
+    assert {state["problem"] or state["says"] for state in states} == {""}
+    assert all(works(state, version) for state in states)
+
+    first = states[0]["module"]
+    assert [state["module"] for state in states] == [first, first, first, first, ANOTHER, ANOTHER, first]
+    alone, both, one, again, other, changed, last = (state["notes"] for state in states)
+    assert list(map(len, (alone, both, one, again, other, changed, last))) == [1, 2, 1, 2, 1, 2, 1]
+    for notes in (alone, one, other, last):
+        assert set(notes.values()) == {""}
+    for notes, waiting in ((both, ANOTHER), (again, ANOTHER), (changed, maker.ID)):
+        (note,) = set(notes.values())
+        assert f"{waiting} waits for the one in " in note
+        assert note.endswith(": disable one of the two")
+        assert ". " not in note, "one sentence"
+
+
+def test_profile_with_spaces_and_letters_of_any_language(blender, packages, version, tmp_path):
+    profile = tmp_path / "Mein Größen-Ordner 輪郭 (it's 1)"
+    states = blender.run_steps(profile, packages[blender.kind], "disable", "enable")
+    assert works(states[0], version)
+    assert works(states[2], version)
+    assert works(*blender.run_steps(profile, "enable"), version)
+
+
+@pytest.fixture
+def read_only():
+    """Takes the right to write away from a folder and everything in it, until the end of the test."""
+    changed = []
+
+    def protect(folder):
+        for path in [folder, *folder.rglob("*")]:
+            if not path.is_symlink():
+                changed.append((path, path.stat().st_mode))
+                path.chmod(path.stat().st_mode & 0o555)
+
+    yield protect
+    for path, mode in changed:
+        path.chmod(mode)
+
+
+def test_profile_that_may_only_be_read(blender, packages, version, read_only, tmp_path):
+    profile = tmp_path / "profile"
+    blender.run_steps(profile, packages[blender.kind])
+    read_only(profile)
+    # Root writes everywhere unless it gives up that right.
+    before = () if os.geteuid() else ("setpriv", "--bounding-set=-dac_override,-dac_read_search")
+    enabled, disabled = blender.run_steps(profile, "enable", "disable", before=before)
+    assert works(enabled, version)
+    assert not disabled["operator"]

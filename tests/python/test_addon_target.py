@@ -22,7 +22,7 @@ def on(monkeypatch):
     """Pretends to be another system with another Python."""
 
     def pretend(system, machine, python):
-        monkeypatch.setattr(platform, "system", lambda: system)
+        monkeypatch.setattr(sys, "platform", system)
         monkeypatch.setattr(platform, "machine", lambda: machine)
         monkeypatch.setattr(sys, "version_info", type("Version", (), {"major": 3, "minor": python}))
 
@@ -30,7 +30,7 @@ def on(monkeypatch):
 
 
 def test_package_for_another_system_names_both_and_what_to_install(on):
-    on("Linux", "x86_64", 13)
+    on("linux", "x86_64", 13)
     assert target.mismatch("windows-x64-cp311") == (
         "This package is for Windows x64 and Python 3.11, this Blender runs on Linux x64 with Python 3.13: "
         "install the package whose name has linux-x64 and cp313"
@@ -38,7 +38,7 @@ def test_package_for_another_system_names_both_and_what_to_install(on):
 
 
 def test_package_for_two_pythons_names_both(on):
-    on("Darwin", "arm64", 13)
+    on("darwin", "arm64", 13)
     assert "is for macOS x64 and Python 3.10 or 3.11, this Blender runs on macOS arm64 with Python 3.13" in (
         target.mismatch("macos-x64-cp310-cp311")
     )
@@ -47,12 +47,12 @@ def test_package_for_two_pythons_names_both(on):
 @pytest.mark.parametrize(
     ("system", "machine", "name"),
     [
-        ("Linux", "x86_64", "linux-x64"),
-        ("Linux", "aarch64", "linux-arm64"),
-        ("Windows", "AMD64", "windows-x64"),
-        ("Windows", "ARM64", "windows-arm64"),
-        ("Darwin", "x86_64", "macos-x64"),
-        ("Darwin", "arm64", "macos-arm64"),
+        ("linux", "x86_64", "linux-x64"),
+        ("linux", "aarch64", "linux-arm64"),
+        ("win32", "AMD64", "windows-x64"),
+        ("win32", "ARM64", "windows-arm64"),
+        ("darwin", "x86_64", "macos-x64"),
+        ("darwin", "arm64", "macos-arm64"),
     ],
 )
 def test_platforms_have_the_names_in_package_files(on, system, machine, name):
