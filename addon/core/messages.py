@@ -208,6 +208,10 @@ def name_taken(name):
     return f"there is an attribute of another type named '{name}': rename or remove it"
 
 
+def unsaved_preset(error):
+    return f"The preset cannot be saved in {error.filename}: {error.strerror}"
+
+
 def loose(edges, closed=True):
     noun = "a loop" if closed else "an open chain"
     names = shortened([f"{a}-{b}" for a, b in edges])

@@ -6,6 +6,7 @@ from bl_operators.presets import AddPresetBase
 from bl_ui.utils import PresetPanel
 from bpy.props import EnumProperty
 
+from ..core import messages
 from ..core.parameters import PRESETS, SETTINGS, preset_values
 from . import panels, preferences
 
@@ -37,6 +38,13 @@ class MESH_OT_contour_preset_add(AddPresetBase, bpy.types.Operator):
     preset_subdir = "minimum_ratio_contours"
     preset_defines = [f"settings = bpy.context.window_manager.operator_properties_last({panels.OPERATOR!r})"]
     preset_values = [f"settings.{name}" for name in SETTINGS]
+
+    def execute(self, context):
+        try:
+            return super().execute(context)
+        except OSError as error:  # where the folder may only be read, Blender would show a traceback
+            self.report({"ERROR"}, messages.unsaved_preset(error))
+            return {"CANCELLED"}
 
 
 class VIEW3D_PT_minimum_ratio_contours_presets(PresetPanel, bpy.types.Panel):

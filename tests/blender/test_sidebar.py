@@ -168,6 +168,15 @@ def test_user_presets_are_saved_and_found_again(tmp_path, monkeypatch):
     assert (settings.width, settings.length_bias, settings.flow) == (21, 0.75, "GATES")
 
 
+def test_a_preset_that_cannot_be_saved_says_where_and_why(tmp_path, monkeypatch):
+    monkeypatch.setattr(bpy.utils, "user_resource", lambda *_, path="", create=False: _made(tmp_path / path, create))
+    taken = tmp_path / "presets" / presets.MESH_OT_contour_preset_add.preset_subdir / "My_Own.py"
+    taken.mkdir(parents=True)
+    with pytest.raises(RuntimeError, match=r"The preset cannot be saved in .*My_Own\.py: \w") as raised:
+        bpy.ops.mesh.contour_preset_add(name="My Own")
+    assert "Traceback" not in str(raised.value)
+
+
 def _made(path, create):
     if create:
         Path(path).mkdir(parents=True, exist_ok=True)
