@@ -6,10 +6,13 @@ import sys
 bl_info = {
     "name": "Minimum Ratio Contours",
     "author": "Minimum Ratio Contours developers",
-    "version": (0, 0, 0),  # packaging writes the version in CMakeLists.txt here and into the manifest
+    # Packaging writes the version and the addresses in CMakeLists.txt here and into the manifest.
+    "version": (0, 0, 0),
     "blender": (3, 4, 0),
     "location": "Edit Mode > Sidebar > Contours, and Edge > Optimize Contour",
     "description": "Moves rough edge loops to the part boundaries nearby",
+    "doc_url": "",
+    "tracker_url": "",
     "category": "Mesh",
 }
 VERSION = ".".join(map(str, bl_info["version"]))  # stored here because Blender deletes the bl_info of an extension

@@ -7,6 +7,7 @@ releases and for Blenders that a distribution builds with another Python than th
 
 import argparse
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -16,7 +17,8 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from packaging.utils import parse_wheel_filename
 
-ADDON = Path(__file__).resolve().parents[1] / "addon"
+ROOT = Path(__file__).resolve().parents[1]
+ADDON = ROOT / "addon"
 ID = "minimum_ratio_contours"
 # The Blender releases with each Python: from the first up to, but not including, the second. Before 4.2 there are no
 # extensions.
@@ -45,6 +47,12 @@ def package_target(wheels):
     return "-".join([names[0][2], *(python for _, python, _ in names)])
 
 
+def homepage():
+    """The public address of the project, from CMakeLists.txt; empty if there is none."""
+    text = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
+    return re.search(r'^project\(.* HOMEPAGE_URL "(.*?)"', text, re.MULTILINE)[1]
+
+
 def manifest(wheel):
     """The manifest in the source, completed with what is known only in a package."""
     version, python, platform = read_name(wheel)
@@ -52,6 +60,8 @@ def manifest(wheel):
     text = (ADDON / "blender_manifest.toml").read_text(encoding="utf-8")
     text = text.replace('\nversion = "0.0.0"', f'\nversion = "{version}"')
     text = text.replace('blender_version_min = "4.2.0"', f'blender_version_min = "{first}"')
+    if address := homepage():
+        text += f'website = "{address}"\n'
     if end:
         text += f'blender_version_max = "{end}"\n'
     return text + f'platforms = ["{platform}"]\nwheels = ["./wheels/{wheel.name}"]\n'
@@ -63,6 +73,9 @@ def sources(wheels):
     numbers = ", ".join(read_name(wheels[0])[0].split("."))
     text = files["__init__.py"].decode()
     text = text.replace('"version": (0, 0, 0)', f'"version": ({numbers})')
+    if address := homepage():
+        text = text.replace('"doc_url": ""', f'"doc_url": "{address}"')
+        text = text.replace('"tracker_url": ""', f'"tracker_url": "{address}/issues"')
     text = text.replace('\nTARGET = ""', f'\nTARGET = "{package_target(wheels)}"')
     return files | {"__init__.py": text.encode()}
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The packages contain the right files, Blender's own tools accept them, and they need nothing else."""
 
+import ast
 import re
 import subprocess
 import sys
@@ -9,7 +10,7 @@ from zipfile import ZipFile
 import packages as maker
 import pytest
 import tomllib
-from conftest import ROOT, only
+from conftest import ROOT, only, wheel_of
 
 ADDON = ROOT / "addon"
 SOURCES = {path.relative_to(ADDON).as_posix() for path in ADDON.rglob("*.py")}
@@ -78,12 +79,46 @@ def test_manifest_requests_no_permissions_and_declares_its_platform(packages, ve
     assert found["platforms"][0].startswith("linux-")
 
 
+def test_manifest_keeps_the_rules_of_the_extensions_platform(packages):
+    """Those that Blender's tool does not check or checks only when it builds."""
+    found = manifest(packages["extension"])
+    assert len(found["tagline"]) <= 64
+    assert found["tagline"][-1].isalnum()
+    assert "blender" not in found["name"].lower()
+    assert "" not in found.values()
+    third_party = (ROOT / "native/python/THIRD_PARTY.txt").read_text(encoding="utf-8")
+    holders = re.findall(r"^ *Copyright \([cC]\) ([\d-]+),? ([^<,\n]*\w)", third_party, re.MULTILINE)
+    assert len(holders) >= 2
+    assert {" ".join(holder) for holder in holders} <= set(found["copyright"])
+
+
 def test_versions_agree_everywhere(packages, version):
     for kind, folder in (("extension", ""), ("legacy", "minimum_ratio_contours/")):
         init = contents(packages[kind])[f"{folder}__init__.py"].decode()
         assert f'"version": {tuple(map(int, version.split(".")))}' in init
     assert manifest(packages["extension"])["version"] == version
     assert all(version in package.name for package in packages.values())
+
+
+ADDRESS = "https://contours.example"
+
+
+@pytest.mark.parametrize("address", ["", ADDRESS])
+def test_packages_have_the_links_that_blender_shows_if_there_is_an_address(
+    monkeypatch, blender_tool, tmp_path, address
+):
+    monkeypatch.setattr(maker, "homepage", lambda: address)
+    wheel = wheel_of(tmp_path, "cp311", "win_amd64")
+    assert manifest(maker.build_extension(wheel, tmp_path, blender_tool)).get("website", "") == address
+    init = contents(maker.build_legacy([wheel], tmp_path))["minimum_ratio_contours/__init__.py"].decode()
+    info = ast.literal_eval(re.search(r"^bl_info = (\{.*?^\})", init, re.MULTILINE | re.DOTALL)[1])
+    assert (info["doc_url"], info["tracker_url"]) == ((address, f"{address}/issues") if address else ("", ""))
+
+
+def test_the_address_is_that_in_cmakelists(packages):
+    source = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
+    assert f'HOMEPAGE_URL "{maker.homepage()}"' in source
+    assert manifest(packages["extension"]).get("website", "") == maker.homepage()
 
 
 def test_extension_tools_of_all_releases_accept_and_reproduce_the_extension(extension_blender, packages, tmp_path):
@@ -112,15 +147,6 @@ def test_every_module_is_packaged(packages):
     for kind, folder in (("extension", ""), ("legacy", "minimum_ratio_contours/")):
         shipped = {name.removeprefix(folder) for name in names(packages[kind]) if name.endswith(".py")}
         assert shipped == SOURCES
-
-
-def wheel_of(folder, python, platform):
-    """An empty stand-in for a wheel of another system."""
-    wheel = folder / f"mrcontour-0.1.0-{python}-{python}-{platform}.whl"
-    with ZipFile(wheel, "w") as content:
-        content.writestr(f"mrcontour.{python}-{platform}.pyd", b"")
-        content.writestr("mrcontour-0.1.0.dist-info/licenses/LICENSE", b"")
-    return wheel
 
 
 @pytest.mark.parametrize(
