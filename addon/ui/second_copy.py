@@ -29,14 +29,11 @@ def is_waiting():
 
 
 def note():
-    """What both copies say, where there are two; else empty."""
-    waiting = [_ADDON] if _waiting else [module.__name__ for module in _others_waiting()]
-    if not waiting:
-        return ""
-    first, second = (sys.modules[name].__path__[0] for name in (_registered(), waiting[0]))
-    return (
-        f"This add-on is enabled twice, and the copy in {second} waits for the one in {first}: disable one of the two"
-    )
+    """What this copy says where there are two; else empty."""
+    if _waiting or _others_waiting():
+        idle = "this" if _waiting else "the other"
+        return f"This add-on is enabled twice, and {idle} copy does nothing: disable one of the two in the preferences"
+    return ""
 
 
 def wait_for_the_first():
