@@ -158,6 +158,20 @@ def test_the_library_missing(monkeypatch, last):
     assert last.message == native.problem()
 
 
+@pytest.mark.parametrize(
+    "command", ["optimize_contour", "adjust_contour", "optimize_seams", "optimize_segmentation", "show_curvature"]
+)
+def test_every_command_of_a_package_for_another_system_says_so_in_one_sentence(monkeypatch, command):
+    obj = grooved_cylinder()
+    edit(obj)
+    before = mesh_state(obj)
+    without_library(monkeypatch)
+    monkeypatch.setattr(native, "TARGET", "plan9-mips-cp27")
+    with pytest.raises(RuntimeError, match=r"^Error: This package is for plan9 mips and Python 2\.7, .* cp3\d+\n$"):
+        getattr(bpy.ops.mesh, command)()
+    assert mesh_state(obj) == before
+
+
 def test_a_library_of_another_version(monkeypatch):
     obj = grooved_cylinder()
     edit(obj)
