@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Builds the packages for Blender from self-contained wheels, all for one platform.
 
-Each wheel for a Python of Blender 4.2 or later becomes an extension. All share one legacy add-on, for older
-releases and for Blenders that a distribution builds with another Python than their release's own.
+One extension has all wheels for the Pythons of Blender 4.2 and later, as extensions.blender.org wants it: one file for
+each platform. One legacy add-on has the modules of all wheels, for older releases.
 """
 
 import argparse
@@ -20,9 +20,7 @@ from packaging.utils import parse_wheel_filename
 ROOT = Path(__file__).resolve().parents[1]
 ADDON = ROOT / "addon"
 ID = "minimum_ratio_contours"
-# The Blender releases with each Python: from the first up to, but not including, the second. Before 4.2 there are no
-# extensions.
-EXTENSION_RELEASES = {"cp311": ("4.2.0", "5.1.0"), "cp313": ("5.1.0", None)}
+EXTENSION_PYTHONS = ("cp311", "cp313")  # of Blender 4.2 and later; before 4.2 there are no extensions
 LEGACY_PYTHONS = ("cp310", "cp311", "cp313")  # with the last of them, Debian 13 builds its Blender 4.3
 PLATFORMS = {"linux": "linux", "manylinux": "linux", "musllinux": "linux", "win": "windows", "macosx": "macos"}
 MACHINES = {"x86_64": "x64", "amd64": "x64", "arm64": "arm64", "aarch64": "arm64"}
@@ -53,18 +51,18 @@ def homepage():
     return re.search(r'^project\(.* HOMEPAGE_URL "(.*?)"', text, re.MULTILINE)[1]
 
 
-def manifest(wheel):
-    """The manifest in the source, completed with what is known only in a package."""
-    version, python, platform = read_name(wheel)
-    first, end = EXTENSION_RELEASES[python]
+def manifest(wheels):
+    """The manifest in the source, completed with what is known only in a package.
+
+    Blender takes the wheel for its Python, and refuses the extension if there is none.
+    """
+    version, _, platform = read_name(wheels[0])
     text = (ADDON / "blender_manifest.toml").read_text(encoding="utf-8")
     text = text.replace('\nversion = "0.0.0"', f'\nversion = "{version}"')
-    text = text.replace('blender_version_min = "4.2.0"', f'blender_version_min = "{first}"')
     if address := homepage():
         text += f'website = "{address}"\n'
-    if end:
-        text += f'blender_version_max = "{end}"\n'
-    return text + f'platforms = ["{platform}"]\nwheels = ["./wheels/{wheel.name}"]\n'
+    paths = ", ".join(f'"./wheels/{wheel.name}"' for wheel in wheels)
+    return text + f'platforms = ["{platform}"]\nwheels = [{paths}]\n'
 
 
 def sources(wheels):
@@ -80,17 +78,18 @@ def sources(wheels):
     return files | {"__init__.py": text.encode()}
 
 
-def build_extension(wheel, output, tool):
+def build_extension(wheels, output, tool):
     """Builds and validates the extension with Blender's own tool, from a folder that contains nothing else."""
-    package = output / package_name([wheel], "extension")
+    package = output / package_name(wheels, "extension")
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
-        for name, content in sources([wheel]).items():
+        for name, content in sources(wheels).items():
             (folder / name).parent.mkdir(exist_ok=True)
             (folder / name).write_bytes(content)
-        (folder / "blender_manifest.toml").write_text(manifest(wheel), encoding="utf-8")
+        (folder / "blender_manifest.toml").write_text(manifest(wheels), encoding="utf-8")
         (folder / "wheels").mkdir()
-        shutil.copyfile(wheel, folder / "wheels" / wheel.name)
+        for wheel in wheels:
+            shutil.copyfile(wheel, folder / "wheels" / wheel.name)
         for path in folder.rglob("*"):
             os.utime(path, (_epoch(), _epoch()))
         run = [sys.executable, tool]
@@ -137,12 +136,12 @@ def main():
     arguments = parser.parse_args()
     arguments.output.mkdir(parents=True, exist_ok=True)
     wheels = sorted(arguments.wheels)
-    extensions = [wheel for wheel in wheels if read_name(wheel)[1] in EXTENSION_RELEASES]
-    packages = [build_extension(wheel, arguments.output, arguments.extension_tool) for wheel in extensions]
+    extension = [wheel for wheel in wheels if read_name(wheel)[1] in EXTENSION_PYTHONS]
+    if extension:
+        print(build_extension(extension, arguments.output, arguments.extension_tool))
     legacy = [wheel for wheel in wheels if read_name(wheel)[1] in LEGACY_PYTHONS]
     if legacy:
-        packages.append(build_legacy(legacy, arguments.output))
-    print(*packages, sep="\n")
+        print(build_legacy(legacy, arguments.output))
 
 
 if __name__ == "__main__":

@@ -105,10 +105,10 @@ def folder(config):
 
 
 def packages_for(config, python):
-    """The wheel and the extension for one Python, and the legacy add-on for all, by kind."""
+    """The wheel for one Python, and the extension and the legacy add-on for all, by kind."""
     kinds = {
         "wheel": f"*-{python}-{python}-*.whl",
-        "extension": f"*-extension-*-{python}.zip",
+        "extension": "*-extension-*.zip",
         "legacy": "*-legacy-*.zip",
     }
     return {kind: only(folder(config).glob(pattern)) for kind, pattern in kinds.items()}

@@ -99,7 +99,7 @@ def test_legacy_add_on_of_another_system_says_what_to_install(blender, tmp_path)
 
 @pytest.mark.parametrize(("python", "platform"), [("cp311", "win_amd64"), ("cp313", "win_amd64")])
 def test_blender_itself_refuses_an_extension_of_another_system(extension_blender, tmp_path, python, platform):
-    foreign = maker.build_extension(wheel_of(tmp_path, python, platform), tmp_path, extension_blender.tool)
+    foreign = maker.build_extension([wheel_of(tmp_path, python, platform)], tmp_path, extension_blender.tool)
     (state,) = extension_blender.run_steps(tmp_path / "profile", foreign)
     assert not state["installed"]
 

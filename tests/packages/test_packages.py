@@ -14,7 +14,6 @@ from conftest import ROOT, only, wheel_of
 
 ADDON = ROOT / "addon"
 SOURCES = {path.relative_to(ADDON).as_posix() for path in ADDON.rglob("*.py")}
-RELEASES = {"cp311": ("4.2.0", "5.1.0"), "cp313": ("5.1.0", None)}  # of Blender, for each Python
 LICENSES = {"LICENSE", "THIRD_PARTY.txt"}
 MODULE = r"mrcontour\.cpython-3\d+-[\w-]+\.so"
 LIBRARY = r"mrcontour\.libs/libOpenMeshCore-\w+\.so[\d.]*"
@@ -55,10 +54,11 @@ def test_wheel_metadata_contains_its_page(packages, version):
     assert (ROOT / "native" / "python" / "README.md").read_text(encoding="utf-8").strip() in metadata
 
 
-def test_extension_contains_sources_manifest_and_wheel(packages):
-    wheel = f"wheels/{packages['wheel'].name}"
-    assert set(names(packages["extension"])) == SOURCES | {"blender_manifest.toml", wheel}
-    assert contents(packages["extension"])[wheel] == packages["wheel"].read_bytes()
+def test_extension_contains_sources_manifest_and_wheels(own_packages, wheels):
+    found = contents(own_packages["extension"])
+    copies = {f"wheels/{wheel.name}": wheel.read_bytes() for wheel in wheels}
+    assert {name for name in found if not name.endswith("/")} == SOURCES | {"blender_manifest.toml"} | copies.keys()
+    assert {name: found[name] for name in copies} == copies
 
 
 def test_legacy_add_on_contains_sources_libraries_and_licenses(own_packages, wheels):
@@ -69,12 +69,11 @@ def test_legacy_add_on_contains_sources_libraries_and_licenses(own_packages, whe
     assert {name.partition("/")[2] for name in found} == SOURCES | LICENSES | libraries
 
 
-def test_manifest_requests_no_permissions_and_declares_its_platform(packages, version):
-    found = manifest(packages["extension"])
+def test_manifest_requests_no_permissions_and_declares_its_platform(own_packages, wheels, version):
+    found = manifest(own_packages["extension"])
     assert "permissions" not in found
-    assert (found["version"], found["wheels"]) == (version, [f"./wheels/{packages['wheel'].name}"])
-    releases = RELEASES[maker.read_name(packages["wheel"])[1]]
-    assert (found["blender_version_min"], found.get("blender_version_max")) == releases
+    assert (found["version"], found["wheels"]) == (version, [f"./wheels/{wheel.name}" for wheel in wheels])
+    assert (found["blender_version_min"], found.get("blender_version_max")) == ("4.2.0", None)
     assert len(found["platforms"]) == 1
     assert found["platforms"][0].startswith("linux-")
 
@@ -109,7 +108,7 @@ def test_packages_have_the_links_that_blender_shows_if_there_is_an_address(
 ):
     monkeypatch.setattr(maker, "homepage", lambda: address)
     wheel = wheel_of(tmp_path, "cp311", "win_amd64")
-    assert manifest(maker.build_extension(wheel, tmp_path, blender_tool)).get("website", "") == address
+    assert manifest(maker.build_extension([wheel], tmp_path, blender_tool)).get("website", "") == address
     init = contents(maker.build_legacy([wheel], tmp_path))["minimum_ratio_contours/__init__.py"].decode()
     info = ast.literal_eval(re.search(r"^bl_info = (\{.*?^\})", init, re.MULTILINE | re.DOTALL)[1])
     assert (info["doc_url"], info["tracker_url"]) == ((address, f"{address}/issues") if address else ("", ""))
@@ -121,10 +120,12 @@ def test_the_address_is_that_in_cmakelists(packages):
     assert manifest(packages["extension"]).get("website", "") == maker.homepage()
 
 
-def test_extension_tools_of_all_releases_accept_and_reproduce_the_extension(extension_blender, packages, tmp_path):
+def test_extension_tools_of_all_releases_accept_and_reproduce_the_extension(
+    extension_blender, packages, wheels, tmp_path
+):
     validate = [sys.executable, extension_blender.tool, "validate", packages["extension"]]
     subprocess.run(validate, check=True, capture_output=True)
-    built = maker.build_extension(packages["wheel"], tmp_path, extension_blender.tool)
+    built = maker.build_extension(wheels, tmp_path, extension_blender.tool)
     assert contents(built) == contents(packages["extension"])
 
 
@@ -158,11 +159,11 @@ def test_every_module_is_packaged(packages):
     ],
 )
 def test_extensions_for_other_systems(blender_tool, tmp_path, python, platform, wanted):
-    built = maker.build_extension(wheel_of(tmp_path, python, platform), tmp_path, blender_tool)
+    built = maker.build_extension([wheel_of(tmp_path, python, platform)], tmp_path, blender_tool)
     found = manifest(built)
     assert built.name.endswith(f"-extension-{wanted}-{python}.zip")
     assert found["platforms"] == [wanted]
-    assert (found["blender_version_min"], found.get("blender_version_max")) == RELEASES[python]
+    assert found["wheels"] == [f"./wheels/mrcontour-0.1.0-{python}-{python}-{platform}.whl"]
 
 
 def test_legacy_add_on_for_two_pythons(tmp_path):
