@@ -54,7 +54,7 @@ get_python_source() {  # PYTHON
     mkdir -p "$folder/download/unpacked"
     logged "apt-$suite" apt_update "$suite"
     (cd "$folder/download" && logged "source-$1" apt_get "$suite" source --download-only --only-source "python$1/$suite")
-    tar -xf "$folder"/download/*.orig.tar.* -C "$folder/download/unpacked" --strip-components=1
+    tar -xf "$folder"/download/*.orig.tar.?z -C "$folder/download/unpacked" --strip-components=1
     mv "$folder/download/unpacked" "$folder/source"
     rm -rf "$folder/download"
 }
