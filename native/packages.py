@@ -51,6 +51,16 @@ def homepage():
     return re.search(r'^project\(.* HOMEPAGE_URL "(.*?)"', text, re.MULTILINE)[1]
 
 
+def name_inside(wheel):
+    """The name of a wheel inside an extension.
+
+    The first releases of Blender 4.2, which has Python 3.11, look at no Python: of wheels of the same version they take
+    that whose name comes last. A build tag puts the others before it.
+    """
+    python = read_name(wheel)[1]
+    return wheel.name if python == "cp311" else wheel.name.replace(f"-{python}-", f"-1-{python}-", 1)
+
+
 def manifest(wheels):
     """The manifest in the source, completed with what is known only in a package.
 
@@ -61,7 +71,7 @@ def manifest(wheels):
     text = text.replace('\nversion = "0.0.0"', f'\nversion = "{version}"')
     if address := homepage():
         text += f'website = "{address}"\n'
-    paths = ", ".join(f'"./wheels/{wheel.name}"' for wheel in wheels)
+    paths = ", ".join(f'"./wheels/{name_inside(wheel)}"' for wheel in wheels)
     return text + f'platforms = ["{platform}"]\nwheels = [{paths}]\n'
 
 
@@ -89,7 +99,7 @@ def build_extension(wheels, output, tool):
         (folder / "blender_manifest.toml").write_text(manifest(wheels), encoding="utf-8")
         (folder / "wheels").mkdir()
         for wheel in wheels:
-            shutil.copyfile(wheel, folder / "wheels" / wheel.name)
+            shutil.copyfile(wheel, folder / "wheels" / name_inside(wheel))
         for path in folder.rglob("*"):
             os.utime(path, (_epoch(), _epoch()))
         run = [sys.executable, tool]

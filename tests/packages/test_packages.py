@@ -11,6 +11,7 @@ import packages as maker
 import pytest
 import tomllib
 from conftest import ROOT, only, wheel_of
+from packaging.utils import parse_wheel_filename
 
 ADDON = ROOT / "addon"
 SOURCES = {path.relative_to(ADDON).as_posix() for path in ADDON.rglob("*.py")}
@@ -56,7 +57,7 @@ def test_wheel_metadata_contains_its_page(packages, version):
 
 def test_extension_contains_sources_manifest_and_wheels(own_packages, wheels):
     found = contents(own_packages["extension"])
-    copies = {f"wheels/{wheel.name}": wheel.read_bytes() for wheel in wheels}
+    copies = {f"wheels/{maker.name_inside(wheel)}": wheel.read_bytes() for wheel in wheels}
     assert {name for name in found if not name.endswith("/")} == SOURCES | {"blender_manifest.toml"} | copies.keys()
     assert {name: found[name] for name in copies} == copies
 
@@ -72,7 +73,10 @@ def test_legacy_add_on_contains_sources_libraries_and_licenses(own_packages, whe
 def test_manifest_requests_no_permissions_and_declares_its_platform(own_packages, wheels, version):
     found = manifest(own_packages["extension"])
     assert "permissions" not in found
-    assert (found["version"], found["wheels"]) == (version, [f"./wheels/{wheel.name}" for wheel in wheels])
+    assert (found["version"], found["wheels"]) == (
+        version,
+        [f"./wheels/{maker.name_inside(wheel)}" for wheel in wheels],
+    )
     assert (found["blender_version_min"], found.get("blender_version_max")) == ("4.2.0", None)
     assert len(found["platforms"]) == 1
     assert found["platforms"][0].startswith("linux-")
@@ -163,7 +167,19 @@ def test_extensions_for_other_systems(blender_tool, tmp_path, python, platform, 
     found = manifest(built)
     assert built.name.endswith(f"-extension-{wanted}-{python}.zip")
     assert found["platforms"] == [wanted]
-    assert found["wheels"] == [f"./wheels/mrcontour-0.1.0-{python}-{python}-{platform}.whl"]
+    assert len(found["wheels"]) == 1
+
+
+def test_in_an_extension_the_wheel_for_python_311_comes_last(blender_tool, tmp_path):
+    """Blender 4.2.0, which has this Python, takes the last, whatever its Python."""
+    wheels = [wheel_of(tmp_path, python, "win_amd64") for python in ("cp311", "cp313")]
+    found = manifest(maker.build_extension(wheels, tmp_path, blender_tool))["wheels"]
+    assert len(found) == 2
+    assert "-cp311-" in max(found)
+    assert {tag.interpreter for name in found for tag in parse_wheel_filename(name.removeprefix("./wheels/"))[3]} == {
+        "cp311",
+        "cp313",
+    }
 
 
 def test_legacy_add_on_for_two_pythons(tmp_path):
