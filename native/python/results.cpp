@@ -4,6 +4,7 @@
 #include "bindings.h"
 #include "values.h"
 
+#include "number_text.h"
 #include "trace_contour.h"
 
 #include <mrc/measure.h>
@@ -302,7 +303,7 @@ void bind_results(py::module_& module) {
             "the left one.")
         .def("__repr__", [](const PyResult& r) {
             return std::string("<mrcontour.Result: ") + status_name(r.result.status) + ", ratio " +
-                   std::to_string(r.result.initial_ratio) + " -> " + std::to_string(r.result.ratio) + ">";
+                   mrc::number_text(r.result.initial_ratio) + " -> " + mrc::number_text(r.result.ratio) + ">";
         });
 }
 

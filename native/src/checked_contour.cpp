@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "edge_obstacles.h"
 #include "element_names.h"
+#include "number_text.h"
 #include "patch.h"
 #include "segments.h"
 #include "surface_point.h"
@@ -18,8 +19,7 @@ namespace mrc {
 namespace {
 
 std::string point_name(const SurfacePoint& p) {
-    return p.is_vertex() ? "vertex " + std::to_string(p.a)
-                         : "the point at " + std::to_string(p.t) + " of edge " + edge_name(p.a, p.b);
+    return p.is_vertex() ? "vertex " + std::to_string(p.a) : "the point at " + number_text(p.t) + " of edge " + edge_name(p.a, p.b);
 }
 
 InvalidInput no_edge(int a, int b) {
@@ -39,7 +39,7 @@ void check_point(const Surface& surface, const SurfacePoint& p) {
     }
     if (!(p.t >= 0.0 && p.t <= 1.0)) {
         throw InvalidInput(ErrorCode::invalid_parameter,
-                           "the contour's point on edge " + edge_name(p.a, p.b) + " has parameter " + std::to_string(p.t) +
+                           "the contour's point on edge " + edge_name(p.a, p.b) + " has parameter " + number_text(p.t) +
                                ": it must be from 0 to 1",
                            {Element::edge(p.a, p.b)});
     }
@@ -90,7 +90,7 @@ struct Crossing {
 
 /// Segments inside one triangle cross where their ends alternate on its boundary.
 void check_crossings(std::vector<Crossing>& crossings) {
-    std::ranges::sort(crossings, {}, &Crossing::triangle);
+    std::ranges::stable_sort(crossings, {}, &Crossing::triangle);  // which of several is named must not vary
     for (auto first = crossings.begin(); first != crossings.end();) {
         const auto end = std::find_if(first, crossings.end(), [&](const Crossing& c) { return c.triangle != first->triangle; });
         for (auto i = first; i != end; ++i) {

@@ -3,6 +3,7 @@
 
 #include "element_names.h"
 #include "input_range.h"
+#include "number_text.h"
 
 #include <algorithm>
 #include <span>
@@ -54,7 +55,7 @@ void Constraints::check(const Surface& surface) const {
             if (!valid) throw InvalidInput(ErrorCode::invalid_attractor, begin + fault, {Element::vertex(a.vertex)});
         };
         require(in_input_range(a.radius) && a.radius > 0.0,
-                "radius " + std::to_string(a.radius) + ": it must be above 0, and no larger than 1e50");
+                "radius " + number_text(a.radius) + ": it must be above 0, and no larger than 1e50");
         require(in_input_range(a.strength), "a strength that is not finite, or beyond 1e50");
         require(!a.sigma || (in_input_range(*a.sigma) && *a.sigma > 0.0), "a sigma that is not above 0, or beyond 1e50");
     }

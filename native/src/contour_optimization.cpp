@@ -2,13 +2,14 @@
 #include "contour_optimization.h"
 
 #include "contour_scales.h"
+#include "number_text.h"
 #include "required_elements.h"
 #include "trace_contour.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
+#include <string>
 #include <utility>
 
 namespace mrc {
@@ -43,17 +44,11 @@ Infeasible infeasible(const ContourGraph& graph, const Constraints& constraints,
         const bool source = search.matched && n < graph.crossing;
         if (reached[n] && !source && (!farthest || head.level > farthest->level)) farthest = &head;
     }
-    std::ostringstream message;
-    message << "no contour of the band has all " << constraints.required_vertices.size() + constraints.required_edges.size()
-            << " required elements: the search ";
-    if (farthest) {
-        message << "stops at vertex " << farthest->place.a;
-    } else {
-        message << "cannot even begin";
-    }
-    if (!held_back_by.empty()) message << ", with " << numbered(held_back_by) << " in the way";
-    message << ". Widen the band, raise max_turn or drop a requirement";
-    return Infeasible(message.str(),
+    const std::size_t required = constraints.required_vertices.size() + constraints.required_edges.size();
+    const std::string end = farthest ? "stops at vertex " + std::to_string(farthest->place.a) : "cannot even begin";
+    const std::string others = held_back_by.empty() ? "" : ", with " + numbered(held_back_by) + " in the way";
+    return Infeasible("no contour of the band has all " + std::to_string(required) + " required elements: the search " + end +
+                          others + ". Widen the band, raise max_turn or drop a requirement",
                       farthest ? std::vector{Element::vertex(farthest->place.a)} : elements_required_by(constraints));
 }
 
@@ -239,10 +234,8 @@ bool ContourOptimization::featureless() const {
 }
 
 void ContourOptimization::explain_featureless() {
-    std::ostringstream reason;
-    reason << "there is nothing concave to find here: the best contour's salience is " << result_.salience << ", below "
-           << options_.min_salience.value_or(0.0);
-    because(Reason::not_salient, reason.str());
+    because(Reason::not_salient, "there is nothing concave to find here: the best contour's salience is " +
+                                     number_text(result_.salience) + ", below " + number_text(options_.min_salience.value_or(0.0)));
 }
 
 void ContourOptimization::because(Reason code, std::string words) {

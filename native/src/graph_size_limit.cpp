@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "graph_size_limit.h"
 
+#include "number_text.h"
+
 #ifdef _WIN32
 #include <windows.h>
 #else
@@ -9,7 +11,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <sstream>
 #include <string>
 
 namespace mrc {
@@ -41,11 +42,9 @@ void check_graph_size(double triangles, int steiner, double (*free_bytes)()) {
     const double bytes = 200.0 * nodes + 24.0 * arcs;
     constexpr double always_there = 1e8;
     if (bytes < always_there || (arcs < 2147483648.0 && bytes < free_bytes())) return;
-    std::ostringstream message;
-    message.precision(3);
-    message << "the graph would have about " << nodes << " nodes and " << arcs << " arcs and need " << bytes / 1e9
-            << " GB: lower refinement (now " << steiner << ") or width";
-    throw TooLarge(message.str());
+    throw TooLarge("the graph would have about " + number_text(nodes, 3) + " nodes and " + number_text(arcs, 3) +
+                   " arcs and need " + number_text(bytes / 1e9, 3) + " GB: lower refinement (now " + std::to_string(steiner) +
+                   ") or width");
 }
 
 void check_graph_size(double triangles, int steiner) { check_graph_size(triangles, steiner, free_bytes); }

@@ -4,19 +4,19 @@
 #include <mrc/errors.h>
 
 #include "input_range.h"
+#include "number_text.h"
 
 #include <cmath>
-#include <sstream>
+#include <string>
 
 namespace mrc {
 namespace {
 
 void require(bool valid, const char* name, double value, const char* range) {
     if (valid) return;
-    std::ostringstream message;
-    message << "option " << name << " is " << value << ": it must be " << range;
-    if (std::abs(value) > largest_input) message << ", and no larger than " << largest_input;
-    throw InvalidInput(ErrorCode::invalid_option, message.str());
+    std::string message = std::string("option ") + name + " is " + number_text(value) + ": it must be " + range;
+    if (std::abs(value) > largest_input) message += ", and no larger than " + number_text(largest_input);
+    throw InvalidInput(ErrorCode::invalid_option, message);
 }
 
 }  // namespace
