@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "attraction.h"
 
+#include "elementary_functions.h"
+
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <numeric>
 
@@ -51,7 +52,7 @@ double Attraction::felt(int attractor, const SurfacePoint& point) const {
     const double d = distance.at(point);
     if (d > a.radius) return 0.0;
     const double sigma = a.sigma.value_or(0.5 * a.radius);
-    return a.strength * std::exp(-d * d / (2.0 * sigma * sigma));
+    return a.strength * elementary::exp(-d * d / (2.0 * sigma * sigma));
 }
 
 const std::vector<int>& Attraction::around(int vertex) const {

@@ -8,6 +8,7 @@
 #include "distances.h"
 #include "edge_obstacles.h"
 #include "element_names.h"
+#include "elementary_functions.h"
 #include "patch.h"
 
 #include <Eigen/Eigenvalues>
@@ -79,7 +80,7 @@ Limb limb_at(const Surface& surface, const std::vector<int>& chain) {
     for (double& fraction : limb.fraction) fraction /= limb.length;
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
         const double step = limb.fraction[i + 1] - limb.fraction[i];
-        const double window = std::sin(std::numbers::pi * 0.5 * (limb.fraction[i] + limb.fraction[i + 1]));
+        const double window = elementary::sin(std::numbers::pi * 0.5 * (limb.fraction[i] + limb.fraction[i + 1]));
         limb.normal += step * window * (vertex_normal(surface, chain[i]) + vertex_normal(surface, chain[i + 1]));
     }
     limb.normal.normalize();  // zero stays zero
@@ -158,7 +159,7 @@ class ClosingSearch {
         const VertexCurvature& curvature = curvature_.at(vertex);
         const double depth = 0.5 * limb_.length * std::max(0.0, -curvature.kappa_min);
         place.facing = curvature.normal.dot(limb_.normal);
-        const double near = std::exp(-2.0 * from_chain_.at(vertex) / limb_.length);
+        const double near = elementary::exp(-2.0 * from_chain_.at(vertex) / limb_.length);
         place.weight = (1.0 + near_weight * near) * (1.0 + facing_weight * std::max(0.0, place.facing)) *
                        (1.0 - feature_weight * depth / (1.0 + depth));
         place.fraction = limb_.fraction[from_chain_.nearest(vertex)];

@@ -2,6 +2,7 @@
 #include "curvature_field.h"
 
 #include "disk_tensor.h"
+#include "elementary_functions.h"
 #include "index_map.h"
 
 #include <Eigen/Eigenvalues>
@@ -22,7 +23,7 @@ double corner_angle(const Surface& surface, std::span<const int> face, std::size
     const std::size_t n = face.size();
     const Vec3 u = surface.position(face[(i + 1) % n]) - surface.position(face[i]);
     const Vec3 v = surface.position(face[(i + n - 1) % n]) - surface.position(face[i]);
-    return std::atan2(u.cross(v).norm(), u.dot(v));
+    return elementary::atan2(u.cross(v).norm(), u.dot(v));
 }
 
 /// Calls visit(face) once for each polygon at a vertex, in ascending order.
@@ -250,7 +251,7 @@ class CurvatureField::Impl {
         Symmetric sum = Symmetric::Zero();
         double weights = 0.0;
         for (const int other : search_.run(near_, std::span(&n, 1), limit_, [](int) {})) {
-            const double d = search_.distance(other), weight = std::exp(-d * d / (2.0 * sigma_ * sigma_));
+            const double d = search_.distance(other), weight = elementary::exp(-d * d / (2.0 * sigma_ * sigma_));
             sum += weight * tensors_[other];
             weights += weight;
         }

@@ -2,6 +2,7 @@
 #include "disk_tensor.h"
 
 #include "curvature_field.h"
+#include "elementary_functions.h"
 
 #include <Eigen/Geometry>
 
@@ -14,7 +15,7 @@ namespace {
 
 /// The angle from p on to q, turning left, from 0 to 2 pi.
 double turn(const Vec2& p, const Vec2& q) {
-    const double angle = std::atan2(cross(p, q), p.dot(q));
+    const double angle = elementary::atan2(cross(p, q), p.dot(q));
     return angle >= 0.0 ? angle : angle > -1e-9 ? 0.0 : angle + 2.0 * std::numbers::pi;
 }
 
@@ -129,7 +130,7 @@ double DiskTensors::area_inside(const Triangle& t, const Vec3& center) const {
     if (count == 0) return foot_inside ? std::numbers::pi * radius2 : 0.0;
     if (count == 1) {
         // One side alone cuts the circle: more than half of it is inside, or less; nothing where a corner just touches it.
-        const double cut_off = std::abs(std::atan2(cross(pieces[0].from, pieces[0].to), pieces[0].from.dot(pieces[0].to)));
+        const double cut_off = std::abs(elementary::atan2(cross(pieces[0].from, pieces[0].to), pieces[0].from.dot(pieces[0].to)));
         return 0.5 * (doubled + radius2 * (foot_inside ? 2.0 * std::numbers::pi - cut_off : cut_off));
     }
     for (int i = 0; i < count; ++i) {
@@ -204,7 +205,7 @@ double DiskTensors::angle_at(int halfedge) const {
     const Vec3 n1 = triangle_normal(*surface_, halfedge / 3), n2 = triangle_normal(*surface_, twin / 3);
     if (n1.isZero(0.0) || n2.isZero(0.0)) return 0.0;
     const Vec3 along = (surface_->position(surface_->to(halfedge)) - surface_->position(surface_->from(halfedge))).normalized();
-    const double angle = std::atan2(along.dot(n1.cross(n2)), n1.dot(n2));
+    const double angle = elementary::atan2(along.dot(n1.cross(n2)), n1.dot(n2));
     return angle > std::numbers::pi - 1e-6 ? -angle : angle;
 }
 

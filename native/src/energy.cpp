@@ -2,6 +2,7 @@
 #include "energy.h"
 
 #include "attraction.h"
+#include "elementary_functions.h"
 #include "segments.h"
 #include "surface_point.h"
 
@@ -43,7 +44,7 @@ Energy::Energy(const Surface& surface, const CurvatureField& field, const Scales
       options_(options),
       from_given_(surface, scales.given),
       negligible_(1e-4 / scales.h),
-      least_cosine_(std::cos(std::min(options.max_turn + 1e-6, std::numbers::pi))) {
+      least_cosine_(elementary::cos(std::min(options.max_turn + 1e-6, std::numbers::pi))) {
     if (!attractors.empty()) attraction_ = std::make_unique<Attraction>(surface, attractors);
 }
 
@@ -90,7 +91,7 @@ Frame Energy::interpolated_frame(const SurfacePoint& point) const {
 void Energy::finish(Frame& frame, double kappa, const SurfacePoint& point) const {
     frame.kappa = kappa;
     if (options_.feature_exponent != 1.0)
-        frame.kappa = std::copysign(scales_.K * std::pow(std::abs(kappa) / scales_.K, options_.feature_exponent), kappa);
+        frame.kappa = std::copysign(scales_.K * elementary::pow(std::abs(kappa) / scales_.K, options_.feature_exponent), kappa);
     frame.across = frame.normal.cross(frame.direction);
     if (options_.anchor > 0.0) {
         const double distance = from_given_.at(point) / (scales_.L0 / (2.0 * std::numbers::pi));
@@ -101,7 +102,7 @@ void Energy::finish(Frame& frame, double kappa, const SurfacePoint& point) const
 
 double Energy::crease_cost(int halfedge) const {
     if (options_.crease == 0.0 || halfedge < 0 || surface_.diagonal(halfedge)) return plain_crease_cost();
-    return plain_crease_cost() * std::min(3.0, std::exp(3.0 * std::sin(field_.dihedral(halfedge))));
+    return plain_crease_cost() * std::min(3.0, elementary::exp(3.0 * elementary::sin(field_.dihedral(halfedge))));
 }
 
 double Energy::region_factor() const {

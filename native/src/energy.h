@@ -3,6 +3,7 @@
 
 #include "curvature_field.h"
 #include "distances.h"
+#include "elementary_functions.h"
 #include "ratio.h"
 
 #include <mrc/constraints.h>
@@ -39,7 +40,7 @@ struct ChordEnd {
 inline double cosine(const ChordEnd& e, const Eigen::Vector2d& p, double exponent) {
     if (e.projected == 0.0) return 0.0;
     const double c = e.tangent.dot(p) / e.projected;
-    return exponent == 1.0 ? c : std::copysign(std::pow(std::abs(c), exponent), c);
+    return exponent == 1.0 ? c : std::copysign(elementary::pow(std::abs(c), exponent), c);
 }
 
 /// The weights of the arcs through one point, from chord e1, ending there, to chord e2, starting there.

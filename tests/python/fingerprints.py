@@ -11,9 +11,9 @@ only NumPy and the module.
 """
 
 import argparse
-import gzip
 import hashlib
 import json
+import lzma
 import sys
 from pathlib import Path
 
@@ -31,8 +31,8 @@ def bytes_of(result):
     return b"|".join([*plain, result.status.encode(), result.reason_code.encode()])
 
 
-def fingerprint(case):
-    """The hash of a case's results, which must be the same for one thread and several."""
+def line(case):
+    """The name and the hash of a case's results, which must be the same for one thread and several."""
     positions, *indices = case["mesh"]
     surface = mrc.Surface(np.array(positions), *(np.array(part, dtype=np.int32) for part in indices))
     contours = [np.array(contour, dtype=np.int32) for contour in case["contours"]]
@@ -45,7 +45,7 @@ def fingerprint(case):
         except ValueError as error:
             content = type(error).__name__.encode()
         found.add(hashlib.sha256(content).hexdigest()[:16])
-    return " ".join(sorted(found)) + (" THREADS DIFFER" if len(found) > 1 else "")
+    return " ".join([case["name"], *sorted(found)]) + (" THREADS DIFFER" if len(found) > 1 else "")
 
 
 def made_cases():
@@ -55,13 +55,19 @@ def made_cases():
 
 
 def write(cases, file):
-    """One case a line, compressed, without a date. JSON gives back the same floats."""
-    lines = "".join(json.dumps(case) + "\n" for case in cases)
-    file.write_bytes(gzip.compress(lines.encode(), mtime=0))
+    """Compressed, each mesh once. JSON gives back the same floats."""
+    meshes, numbered, numbers = [], [], {}
+    for case in cases:
+        number = numbers.setdefault(json.dumps(case["mesh"]), len(meshes))
+        meshes += [case["mesh"]] if number == len(meshes) else []
+        numbered.append(case | {"mesh": number})
+    text = json.dumps({"meshes": meshes, "cases": numbered})
+    file.write_bytes(lzma.compress(text.encode(), preset=9 | lzma.PRESET_EXTREME))
 
 
 def read(file):
-    return map(json.loads, gzip.decompress(file.read_bytes()).splitlines())
+    content = json.loads(lzma.decompress(file.read_bytes()))
+    return [case | {"mesh": content["meshes"][case["mesh"]]} for case in content["cases"]]
 
 
 def spread(cases, every):
@@ -84,7 +90,7 @@ def main():
         return
     sys.stdout.reconfigure(newline="\n")  # the same bytes on Windows
     for case in cases:
-        print(case["name"], fingerprint(case), flush=True)
+        print(line(case), flush=True)
 
 
 if __name__ == "__main__":
