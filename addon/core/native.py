@@ -55,7 +55,7 @@ def _import():
                 if error.name not in ("mrcontour", f"{_ADDON}.mrcontour"):
                     raise
     except ImportError as error:
-        reason = str(error).partition("\n")[0]  # macOS lists every folder that it has searched
+        reason = error.msg.partition("\n")[0]  # macOS lists every folder that it has searched
         raise Unavailable(_mismatch() or f"The compiled library does not load: {reason}") from error
     raise Unavailable(_mismatch() or _missing())
 

@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[2]
 ADDON = ROOT / "addon"
 SOURCES = sorted(ADDON.rglob("*.py"))
 MAY_IMPORT = {
-    "core": {"core", "VERSION"},
+    "core": {"core", "TARGET", "VERSION"},
     "mesh": {"mesh", "core"},
     "ui": {"ui", "mesh", "core"},
     "api": {"mesh", "core"},
