@@ -90,7 +90,7 @@ def test_manifest_keeps_the_rules_of_the_extensions_platform(packages):
     assert "blender" not in found["name"].lower()
     assert "" not in found.values()
     third_party = (ROOT / "native/python/THIRD_PARTY.txt").read_text(encoding="utf-8")
-    holders = re.findall(r"^ *Copyright \([cC]\) ([\d-]+),? ([^<,\n]*\w)", third_party, re.MULTILINE)
+    holders = re.findall(r"^ *Copyright \([cC]\) ([\d-]+),? (?:by )?([^<,\n]*\w)", third_party, re.MULTILINE)
     assert len(holders) >= 2
     assert {" ".join(holder) for holder in holders} <= set(found["copyright"])
 
