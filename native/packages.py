@@ -6,7 +6,6 @@ each platform. One legacy add-on has the modules of all wheels, for older releas
 """
 
 import argparse
-import os
 import re
 import shutil
 import subprocess
@@ -92,18 +91,18 @@ def build_extension(wheels, output, tool):
     """Builds and validates the extension with Blender's own tool, from a folder that contains nothing else."""
     package = output / package_name(wheels, "extension")
     with tempfile.TemporaryDirectory() as folder:
-        folder = Path(folder)
+        source, built = Path(folder) / "source", Path(folder) / "built.zip"
         for name, content in sources(wheels).items():
-            (folder / name).parent.mkdir(exist_ok=True)
-            (folder / name).write_bytes(content)
-        (folder / "blender_manifest.toml").write_text(manifest(wheels), encoding="utf-8")
-        (folder / "wheels").mkdir()
+            (source / name).parent.mkdir(parents=True, exist_ok=True)
+            (source / name).write_bytes(content)
+        (source / "blender_manifest.toml").write_text(manifest(wheels), encoding="utf-8")
+        (source / "wheels").mkdir()
         for wheel in wheels:
-            shutil.copyfile(wheel, folder / "wheels" / name_inside(wheel))
-        for path in folder.rglob("*"):
-            os.utime(path, (_epoch(), _epoch()))
+            shutil.copyfile(wheel, source / "wheels" / name_inside(wheel))
         run = [sys.executable, tool]
-        subprocess.run([*run, "build", "--source-dir", folder, "--output-filepath", package], check=True)
+        subprocess.run([*run, "build", "--source-dir", source, "--output-filepath", built], check=True)
+        with ZipFile(built) as content:
+            write_zip(package, {name: content.read(name) for name in content.namelist() if not name.endswith("/")})
         subprocess.run([*run, "validate", package], check=True)
     return package
 
@@ -112,16 +111,21 @@ def build_legacy(wheels, output):
     """Builds one folder with the add-on, the modules for all Python versions, the libraries they need, and the
     licenses."""
     package = output / package_name(wheels, "legacy")
+    # Without an entry for the folder, an upgrade would overwrite the library that Blender has loaded.
     files = {"": b""} | sources(wheels)
     for wheel in wheels:
         files |= _library_files(wheel)
+    write_zip(package, {f"{ID}/{name}": content for name, content in files.items()})
+    return package
+
+
+def write_zip(package, files):
+    """The same files give the same bytes: the order of a folder, the time zone and the user's mask have no effect."""
     with ZipFile(package, "w", ZIP_DEFLATED) as content:
         for name in sorted(files):
-            # Without an entry for the folder, an upgrade would overwrite the library that Blender has loaded.
-            entry = ZipInfo(f"{ID}/{name}")  # dated 1980
-            entry.compress_type, entry.external_attr = ZIP_DEFLATED, (0o644 if name else 0o40755) << 16
+            entry = ZipInfo(name)  # dated 1980
+            entry.compress_type, entry.external_attr = ZIP_DEFLATED, (0o40755 if name.endswith("/") else 0o644) << 16
             content.writestr(entry, files[name])
-    return package
 
 
 def _library_files(wheel):
@@ -132,10 +136,6 @@ def _library_files(wheel):
         module_files = {name: name for name in names if name.startswith(("mrcontour.", ".dylibs/"))}
         licenses = {name.rpartition("/")[2]: name for name in names if "/licenses/" in name}
         return {target: content.read(name) for target, name in (module_files | licenses).items()}
-
-
-def _epoch():
-    return int(os.environ.get("SOURCE_DATE_EPOCH", "315532800"))
 
 
 def main():

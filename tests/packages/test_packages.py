@@ -137,6 +137,15 @@ def test_legacy_add_on_is_reproducible(own_packages, wheels, tmp_path):
     assert maker.build_legacy(wheels, tmp_path).read_bytes() == own_packages["legacy"].read_bytes()
 
 
+@pytest.mark.parametrize("zone", ["America/New_York", "Asia/Tokyo"])
+def test_extension_is_reproducible_in_every_time_zone(monkeypatch, own_packages, wheels, blender_tool, tmp_path, zone):
+    monkeypatch.setenv("TZ", zone)
+    built = maker.build_extension(wheels, tmp_path, blender_tool)
+    assert built.read_bytes() == own_packages["extension"].read_bytes()
+    with ZipFile(built) as content:
+        assert content.namelist() == sorted(content.namelist())
+
+
 def test_library_is_loaded_from_the_package_only(own_packages, tmp_path):
     with ZipFile(own_packages["legacy"]) as content:
         content.extractall(tmp_path)
