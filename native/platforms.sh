@@ -81,8 +81,8 @@ get_embedded_python() {  # PYTHON
 # An import library with everything that the library of Python exports.
 make_import_library() {  # DLL TARGET
     { printf 'LIBRARY %s\nEXPORTS\n' "$(basename "$1")"
-      x86_64-w64-mingw32-objdump -p "$1" | sed -n '/Name Pointer. Table/,$ s/^\t\[.*\] //p'; } >"$2.def"
-    x86_64-w64-mingw32-dlltool --deterministic-libraries -d "$2.def" -l "$2"
+      x86_64-w64-mingw32-objdump -p "$1" | sed -n '/Name Pointer. Table/,$ s/^\t\[.*\] //p'; } >"$2.def" &&
+        x86_64-w64-mingw32-dlltool --deterministic-libraries -d "$2.def" -l "$2"
 }
 
 # Headers and import library as CMake's FindPython takes them, in build/python/PYTHON/windows-sdk. Windows has its own pyconfig.h.
@@ -127,27 +127,30 @@ get_python() {  # PLATFORM PYTHON
     esac
 }
 
-# The prefix map keeps the folder of the build out of the files. Modules are compiled in batches, with warnings as errors.
+# Uses the variable toolchain. The prefix map keeps the folder of the build out of the files. Modules are compiled in batches, with
+# warnings as errors.
 build_platform() {  # PLATFORM TARGET CMAKE-ARGUMENT...
-    local folder=$build/platforms/$1 toolchain
-    get_toolchain "$1"
+    local folder=$build/platforms/$1
     get_dependencies
     logged "configure-$1" cmake -G Ninja -S "$root" -B "$folder" "${toolchain[@]}" -D CMAKE_BUILD_TYPE=Release -D CMAKE_UNITY_BUILD=ON \
-        -D CMAKE_COMPILE_WARNING_AS_ERROR=ON -D CMAKE_CXX_FLAGS_RELEASE="-O3 -DNDEBUG -ffile-prefix-map=$root=." \
+        -D CMAKE_COMPILE_WARNING_AS_ERROR=ON -D CMAKE_CXX_FLAGS_RELEASE="-O3 -DNDEBUG '-ffile-prefix-map=$root=.'" \
         -D MRC_DEPENDENCIES="$build/dependencies" "${@:3}" &&
         logged "build-$1" cmake --build "$folder" --target "$2" --parallel "$(nproc)"
 }
 
 build_module() {  # PLATFORM PYTHON: in build/platforms/PLATFORM
-    local python_settings
-    say "building: the module for $1 and Python $2"
+    local toolchain python_settings
+    get_toolchain "$1"
     get_python "$@"
+    say "building: the module for $1 and Python $2"
     build_platform "$1" mrcontour -D MRC_PYTHON=ON -D MRC_TESTS=OFF -D pybind11_DIR="$("$venv/bin/python" -m pybind11 --cmakedir)" \
         -D PYBIND11_USE_CROSSCOMPILING=ON -D PYTHON_IS_DEBUG=OFF -D PYTHON_MODULE_DEBUG_POSTFIX= \
         -D PYTHON_MODULE_EXTENSION="$(module_suffix "$@")" "${python_settings[@]}"
 }
 
 build_native_tests() {  # PLATFORM: as build/platforms/PLATFORM/tests/native/mrc_tests
+    local toolchain
+    get_toolchain "$1"
     say "building: the native tests for $1"
     build_platform "$1" mrc_tests -D MRC_PYTHON=OFF -D MRC_TESTS=ON -D MRC_GOOGLETEST=/usr/src/googletest
 }
