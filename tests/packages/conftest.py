@@ -14,7 +14,7 @@ from packaging.version import Version
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "native"))
-from packages import read_name  # noqa: E402
+from packages import EXTENSION_PYTHONS, LEGACY_PYTHONS, read_name  # noqa: E402
 
 PYTHON = "cp{}{}".format(*sys.version_info)
 
@@ -140,10 +140,20 @@ def own_packages(pytestconfig):
     return packages_for(pytestconfig, PYTHON)
 
 
+def wheels_for(config, pythons):
+    return [wheel for wheel in sorted(folder(config).glob("*.whl")) if read_name(wheel)[1] in pythons]
+
+
 @pytest.fixture(scope="session")
-def wheels(pytestconfig):
-    """The wheels for all Pythons."""
-    return sorted(folder(pytestconfig).glob("*.whl"))
+def extension_wheels(pytestconfig):
+    """The wheels for the Pythons of Blender 4.2 and later."""
+    return wheels_for(pytestconfig, EXTENSION_PYTHONS)
+
+
+@pytest.fixture(scope="session")
+def legacy_wheels(pytestconfig):
+    """The wheels for the Pythons of all releases of Blender."""
+    return wheels_for(pytestconfig, LEGACY_PYTHONS)
 
 
 @pytest.fixture(scope="session")

@@ -55,27 +55,27 @@ def test_wheel_metadata_contains_its_page(packages, version):
     assert (ROOT / "native" / "python" / "README.md").read_text(encoding="utf-8").strip() in metadata
 
 
-def test_extension_contains_sources_manifest_and_wheels(own_packages, wheels):
+def test_extension_contains_sources_manifest_and_wheels(own_packages, extension_wheels):
     found = contents(own_packages["extension"])
-    copies = {f"wheels/{maker.name_inside(wheel)}": wheel.read_bytes() for wheel in wheels}
+    copies = {f"wheels/{maker.name_inside(wheel)}": wheel.read_bytes() for wheel in extension_wheels}
     assert {name for name in found if not name.endswith("/")} == SOURCES | {"blender_manifest.toml"} | copies.keys()
     assert {name: found[name] for name in copies} == copies
 
 
-def test_legacy_add_on_contains_sources_libraries_and_licenses(own_packages, wheels):
+def test_legacy_add_on_contains_sources_libraries_and_licenses(own_packages, legacy_wheels):
     found = names(own_packages["legacy"])
     assert all(name.startswith("minimum_ratio_contours/") for name in found)
-    libraries = {name for wheel in wheels for name in names(wheel) if re.fullmatch(f"{MODULE}|{LIBRARY}", name)}
-    assert len(libraries) > len(wheels)
+    libraries = {name for wheel in legacy_wheels for name in names(wheel) if re.fullmatch(f"{MODULE}|{LIBRARY}", name)}
+    assert len(libraries) > len(legacy_wheels)
     assert {name.partition("/")[2] for name in found} == SOURCES | LICENSES | libraries
 
 
-def test_manifest_requests_no_permissions_and_declares_its_platform(own_packages, wheels, version):
+def test_manifest_requests_no_permissions_and_declares_its_platform(own_packages, extension_wheels, version):
     found = manifest(own_packages["extension"])
     assert "permissions" not in found
     assert (found["version"], found["wheels"]) == (
         version,
-        [f"./wheels/{maker.name_inside(wheel)}" for wheel in wheels],
+        [f"./wheels/{maker.name_inside(wheel)}" for wheel in extension_wheels],
     )
     assert (found["blender_version_min"], found.get("blender_version_max")) == ("4.2.0", None)
     assert len(found["platforms"]) == 1
@@ -125,22 +125,24 @@ def test_the_address_is_that_in_cmakelists(packages):
 
 
 def test_extension_tools_of_all_releases_accept_and_reproduce_the_extension(
-    extension_blender, packages, wheels, tmp_path
+    extension_blender, packages, extension_wheels, tmp_path
 ):
     validate = [sys.executable, extension_blender.tool, "validate", packages["extension"]]
     subprocess.run(validate, check=True, capture_output=True)
-    built = maker.build_extension(wheels, tmp_path, extension_blender.tool)
+    built = maker.build_extension(extension_wheels, tmp_path, extension_blender.tool)
     assert contents(built) == contents(packages["extension"])
 
 
-def test_legacy_add_on_is_reproducible(own_packages, wheels, tmp_path):
-    assert maker.build_legacy(wheels, tmp_path).read_bytes() == own_packages["legacy"].read_bytes()
+def test_legacy_add_on_is_reproducible(own_packages, legacy_wheels, tmp_path):
+    assert maker.build_legacy(legacy_wheels, tmp_path).read_bytes() == own_packages["legacy"].read_bytes()
 
 
 @pytest.mark.parametrize("zone", ["America/New_York", "Asia/Tokyo"])
-def test_extension_is_reproducible_in_every_time_zone(monkeypatch, own_packages, wheels, blender_tool, tmp_path, zone):
+def test_extension_is_reproducible_in_every_time_zone(
+    monkeypatch, own_packages, extension_wheels, blender_tool, tmp_path, zone
+):
     monkeypatch.setenv("TZ", zone)
-    built = maker.build_extension(wheels, tmp_path, blender_tool)
+    built = maker.build_extension(extension_wheels, tmp_path, blender_tool)
     assert built.read_bytes() == own_packages["extension"].read_bytes()
     with ZipFile(built) as content:
         assert content.namelist() == sorted(content.namelist())
