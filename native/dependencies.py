@@ -30,11 +30,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", type=Path)
     target = parser.parse_args().folder
+    unfinished = target.with_name(target.name + ".new")  # so that the folder is there only when it is complete
     shutil.rmtree(target, ignore_errors=True)
+    shutil.rmtree(unfinished, ignore_errors=True)
     with tempfile.TemporaryDirectory() as scratch:
         fetch(Path(scratch))
-        shutil.copytree(next(Path(scratch).glob("openmesh-*/OpenMesh")), target / "openmesh")
-        shutil.copytree(Path(scratch) / "cmeel.prefix", target / "eigen")
+        shutil.copytree(next(Path(scratch).glob("openmesh-*/OpenMesh")), unfinished / "openmesh")
+        shutil.copytree(Path(scratch) / "cmeel.prefix", unfinished / "eigen")
+    unfinished.rename(target)
 
 
 if __name__ == "__main__":

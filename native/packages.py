@@ -146,6 +146,9 @@ def main():
     arguments = parser.parse_args()
     arguments.output.mkdir(parents=True, exist_ok=True)
     wheels = sorted(arguments.wheels)
+    platforms = sorted({read_name(wheel)[2] for wheel in wheels})
+    if len(platforms) > 1:
+        parser.error(f"these wheels are for several platforms: {', '.join(platforms)}")
     extension = [wheel for wheel in wheels if read_name(wheel)[1] in EXTENSION_PYTHONS]
     if extension:
         print(build_extension(extension, arguments.output, arguments.extension_tool))

@@ -44,14 +44,15 @@ install_packages() {  # PACKAGE...
 # Sets pythons[VERSION] to the interpreters that are there: the distribution's, those in MRC_PYTHONS, and those on PATH; and
 # releases to those whose modules they can run.
 find_pythons() {
-    local found version
+    local interpreter version on_path
     declare -gA pythons=()
-    for found in ${MRC_PYTHONS:-}; do
-        usable_version "$found" >/dev/null || { say "MRC_PYTHONS: $found does not run, or has no venv or no Python.h" >&2; return 1; }
+    for interpreter in ${MRC_PYTHONS:-}; do
+        usable_version "$interpreter" >/dev/null ||
+            { say "MRC_PYTHONS: $interpreter does not run, or has no venv or no Python.h" >&2; return 1; }
     done
-    mapfile -t found < <(type -aP python3.11 python3.13)
-    for found in "$python" ${MRC_PYTHONS:-} "${found[@]}"; do
-        if version=$(usable_version "$found"); then pythons[$version]=${pythons[$version]:-$found}; fi
+    mapfile -t on_path < <(type -aP python3.11 python3.13)
+    for interpreter in "$python" ${MRC_PYTHONS:-} "${on_path[@]}"; do
+        if version=$(usable_version "$interpreter"); then pythons[$version]=${pythons[$version]:-$interpreter}; fi
     done
     mapfile -t releases < <(releases_with "${!pythons[@]}")
 }
