@@ -1,50 +1,48 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "elementary_functions.h"
-
-#include <musl/libm.h>
+#include "libm.h"
 
 #include <limits>
 
 static_assert(std::numeric_limits<double>::is_iec559 && FLT_EVAL_METHOD == 0, "the same bytes need plain IEEE 754 doubles");
 
-// The files of musl, in C, are compiled as parts of this one, so that no name of theirs is seen anywhere else.
 namespace mrc::elementary {
+
+// The files are compiled as part of this one, so that nothing else sees their names; in the order in which they need each other.
 namespace musl {
 namespace {
 
-// The order matters.
-// clang-format off
-#include <musl/scalbn.c>
+#include "scalbn.c"
 
-#include <musl/atan.c>
-#include <musl/atan2.c>
+#include "atan.c"
+#include "atan2.c"
 
 double __cos(double x, double y);
 double __sin(double x, double y, int iy);
 int __rem_pio2(double x, double* y);
 int __rem_pio2_large(double* x, double* y, int e0, int nx, int prec);
-#include <musl/__cos.c>
-#include <musl/__rem_pio2.c>
-#include <musl/__rem_pio2_large.c>
-#include <musl/__sin.c>
-#include <musl/cos.c>
-#include <musl/sin.c>
+#include "__cos.c"
+#include "__rem_pio2.c"
+#include "__rem_pio2_large.c"
+#include "__sin.c"
+#include "cos.c"
+#include "sin.c"
 
-#include <musl/__math_invalid.c>
-#include <musl/__math_xflow.c>
-#include <musl/__math_oflow.c>
-#include <musl/__math_uflow.c>
-#include <musl/exp_data.c>
-#include <musl/exp.c>
+#include "__math_invalid.c"
+#include "__math_xflow.c"
+#include "__math_oflow.c"
+#include "__math_uflow.c"
+#include "exp_data.c"
+#include "exp.c"
 #undef N
 #undef T
 
+// pow.c has helpers of the same names as those of exp.c.
 namespace power {
-#include <musl/pow_data.c>
+#include "pow_data.c"
 #undef N
-#include <musl/pow.c>
+#include "pow.c"
 }  // namespace power
-// clang-format on
 
 }  // namespace
 }  // namespace musl
