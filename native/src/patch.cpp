@@ -75,7 +75,8 @@ class PatchBuilder {
         for (int t = surface_.first_triangle(face); t < surface_.first_triangle(face + 1); ++t) {
             const auto& corners = surface_.triangle(t);
             const auto handle = [&](int c) { return PatchMesh::VertexHandle(local_vertex(corners[c])); };
-            const auto added = patch_.mesh.add_face(handle(0), handle(1), handle(2));
+            const auto third = handle(2), second = handle(1), first = handle(0);  // compilers differ in how they order arguments
+            const auto added = patch_.mesh.add_face(first, second, third);
             if (!added.is_valid()) throw std::logic_error("patch: face " + std::to_string(face) + " does not fit its neighbors");
             patch_.polygon.push_back(polygon);
             triangle_.push_back(t);
