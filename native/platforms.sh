@@ -2,6 +2,7 @@
 # shellcheck shell=bash
 # Sourced by native/package and tests/run after setup.sh: builds modules and native tests for other platforms and Pythons than those
 # of this machine, each platform in build/platforms/PLATFORM.
+# shellcheck disable=SC2034  # tests/run does not use all that native/package does
 platforms=(linux-x64 windows-x64)
 module_pythons=(3.11 3.13)  # of Blender 4.1 to 5.0, and of 5.1 and later
 declare -A suites=([3.11]=bookworm [3.13]=trixie)  # the releases of Debian that have them

@@ -20,14 +20,18 @@ PYTHON = "cp{}{}".format(*sys.version_info)
 
 
 class Blender:
-    """A Blender whose user settings, add-ons and extensions are all in one folder."""
+    """A Blender whose user settings, add-ons and extensions are all in one folder, and the kind of package to test."""
 
-    def __init__(self, command, python, tool=None):
-        self.command, self.python, self.tool = command, python, tool
+    def __init__(self, command, python, kind, tool=None, system="Linux"):
+        self.command, self.python, self.kind, self.tool, self.system = command, python, kind, tool, system
 
     @property
-    def kind(self):
-        return "extension" if self.tool else "legacy"
+    def name(self):
+        return f"windows-{self.kind}" if self.system == "Windows" else self.command[0].parents[1].name
+
+    def path(self, path):
+        """How this Blender's system writes the path of a file. Under Wine, Z: is the root folder."""
+        return "Z:" + str(path).replace("/", "\\") if self.system == "Windows" else str(path)
 
     @property
     def has_extensions(self):
@@ -48,9 +52,9 @@ class Blender:
             env=os.environ
             | {
                 "HOME": str(profile / "home"),
-                "BLENDER_USER_RESOURCES": str(profile),
-                "BLENDER_USER_CONFIG": str(profile / "config"),
-                "BLENDER_USER_SCRIPTS": str(profile / "scripts"),
+                "BLENDER_USER_RESOURCES": self.path(profile),
+                "BLENDER_USER_CONFIG": self.path(profile / "config"),
+                "BLENDER_USER_SCRIPTS": self.path(profile / "scripts"),
             },
             capture_output=True,
             text=True,
@@ -69,17 +73,22 @@ def pytest_addoption(parser):
     )
     parser.addoption("--blender", type=Path, help="a Blender that has the Python of this run")
     parser.addoption("--bpy", type=Path, action="append", default=[], help="a virtual environment with a bpy wheel")
+    parser.addoption("--wine", type=Path, help="a Python for Windows with a bpy wheel, to be run under Wine")
 
 
 def blenders(config):
     found = []
     if config.getoption("blender"):
         options = ["-b", "--factory-startup", "--python-exit-code", "1", "--python"]
-        found.append(Blender([config.getoption("blender"), *options], PYTHON))
+        found.append(Blender([config.getoption("blender"), *options], PYTHON, "legacy"))
     for folder in config.getoption("bpy"):
         tool = only(folder.glob("lib/python*/site-packages/bpy/*/scripts/addons_core/bl_pkg/cli/blender_ext.py"))
         python = "cp" + tool.relative_to(folder).parts[1].removeprefix("python").replace(".", "")
-        found.append(Blender([folder / "bin" / "python"], python, tool))
+        found.append(Blender([folder / "bin" / "python"], python, "extension", tool))
+    if folder := config.getoption("wine"):
+        tool = only(folder.glob("Lib/site-packages/bpy/*/scripts/addons_core/bl_pkg/cli/blender_ext.py"))
+        command = [ROOT / "tests" / "under_wine", folder / "python.exe", "-X", "utf8"]
+        found += [Blender(command, "cp311", kind, tool, "Windows") for kind in ("extension", "legacy")]
     return found
 
 
@@ -88,7 +97,7 @@ def pytest_generate_tests(metafunc):
     for name, kinds in {"blender": ("legacy", "extension"), "extension_blender": ("extension",)}.items():
         if name in metafunc.fixturenames:
             chosen = [blender for blender in blenders(metafunc.config) if blender.kind in kinds]
-            ids = [blender.command[0].parents[1].name for blender in chosen]
+            ids = [blender.name for blender in chosen]
             if "packages" not in metafunc.fixturenames:
                 metafunc.parametrize(name, chosen, ids=ids)
                 return

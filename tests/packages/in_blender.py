@@ -4,8 +4,8 @@
 blender -b --factory-startup --python-exit-code 1 --python tests/packages/in_blender.py -- STEP...
 python tests/packages/in_blender.py -- STEP...                  with an installed bpy wheel
 
-A step is the path of a package to install and enable, or one of: look, uninstall, enable, disable. The last two may
-name another copy of the add-on, after a colon.
+A step is the path of a package to install and enable, or one of: look, uninstall, enable, disable, attempt. After a
+colon, enable and disable may name another copy of the add-on; attempt names a package to install, which may fail.
 """
 
 import importlib
@@ -41,6 +41,15 @@ def install(package):
     else:
         bpy.ops.preferences.addon_install(filepath=package, overwrite=True)
         bpy.ops.preferences.addon_enable(module=names[0].partition("/")[0])
+
+
+def attempt(package):
+    """Installs a package, which may fail. Returns the error that the user sees, empty if there is none."""
+    try:
+        install(package)
+    except RuntimeError as error:
+        return str(error)
+    return ""
 
 
 def enable(name=None):
@@ -90,16 +99,13 @@ def state():
         found |= {"module": name, "says": optimize(), "problem": native.problem(), "version": native.VERSION}
         library = sys.modules.get(name + ".mrcontour") or sys.modules.get("mrcontour")
         found["library"] = getattr(library, "__version__", None)
-        found["library_file"] = getattr(library, "__file__", None)
+        found["library_file"] = Path(getattr(library, "__file__", "")).as_posix()
     copies = {name: sys.modules.get(name + ".ui.second_copy") for name in enabled}
     return found | {"notes": {name: copy.note() for name, copy in copies.items() if copy}}
 
 
-STEPS = {"look": lambda: None, "enable": enable, "disable": disable, "uninstall": uninstall}
+STEPS = {"look": lambda: None, "enable": enable, "disable": disable, "uninstall": uninstall, "attempt": attempt}
 for step in sys.argv[sys.argv.index("--") + 1 :]:
     action, *names = step.split(":")
-    if action in STEPS:
-        STEPS[action](*names)
-    else:
-        install(str(Path(step).resolve()))
-    print("STATE " + json.dumps(state()), flush=True)
+    said = STEPS[action](*names) if action in STEPS else install(step)
+    print("STATE " + json.dumps(state() | {"said": said}), flush=True)
