@@ -1,25 +1,32 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # shellcheck shell=bash
-# Sourced by native/package and tests/run after setup.sh: builds modules and native tests for other platforms and Pythons than those
-# of this machine, each platform in build/platforms/PLATFORM.
+# Sourced by native/package and tests/run after setup.sh: builds modules and native tests for all platforms and Pythons, also for
+# those that are not here, each platform in build/platforms/PLATFORM.
 # shellcheck disable=SC2034  # tests/run does not use all that native/package does
-platforms=(linux-x64 windows-x64)
+platforms=(linux-x64 linux-arm64 windows-x64 macos-arm64 macos-x64)
 module_pythons=(3.11 3.13)  # of Blender 4.1 to 5.0, and of 5.1 and later
 declare -A suites=([3.11]=bookworm [3.13]=trixie)  # the releases of Debian that have them
-windows_packages=(g++-mingw-w64-x86-64-posix googletest xz-utils)
+zig="ziglang==0.15.2"  # of the releases since 0.13, the one that builds its C++ library fastest
+windows_packages=(g++-mingw-w64-x86-64-posix xz-utils)
 
 python_tag() { echo "cp${1/./}"; }  # PYTHON
 
 wheel_platform() {  # PLATFORM: prints how the tag of its wheels ends
     case $1 in
-        linux-x64) echo x86_64 ;;
+        linux-x64) echo manylinux_2_28_x86_64 ;;
+        linux-arm64) echo manylinux_2_28_aarch64 ;;
         windows-x64) echo win_amd64 ;;
+        macos-arm64) echo macosx_11_0_arm64 ;;
+        macos-x64) echo macosx_11_0_x86_64 ;;
     esac
 }
 
 module_suffix() {  # PLATFORM PYTHON: prints what Python expects after the module's name
     case $1 in
+        linux-x64) echo ".cpython-${2/./}-x86_64-linux-gnu.so" ;;
+        linux-arm64) echo ".cpython-${2/./}-aarch64-linux-gnu.so" ;;
         windows-x64) echo ".$(python_tag "$2")-win_amd64.pyd" ;;
+        macos-*) echo ".cpython-${2/./}-darwin.so" ;;
     esac
 }
 
@@ -100,6 +107,33 @@ get_windows_sdk() {  # PYTHON
     mv "$sdk.new" "$sdk"
 }
 
+# Python's headers for all platforms but Windows, in build/python/PYTHON/include: Debian's, or those of a Python that is here. Their
+# pyconfig.h is that of 64-bit Linux: what they take from it, the sizes of C's types above all, is the same for both processors and
+# on macOS.
+get_python_headers() {  # PYTHON
+    local folder=$build/python/$1 unpacked=$build/python/$1/download found
+    if [ -d "$folder/include" ]; then return 0; fi
+    rm -rf "$unpacked"
+    mkdir -p "$unpacked"
+    if [ "${suites[$1]:-}" ]; then
+        download_python_headers "$1" "$unpacked"
+        found=$unpacked/usr/include/python$1
+    else
+        found=$("${pythons[$1]}" -c 'import sysconfig; print(sysconfig.get_path("include"))')
+    fi
+    cp -r "$found" "$folder/include.new"
+    cp "$(dirname "$found")"/*-linux-gnu/"python$1/pyconfig.h" "$folder/include.new/" 2>/dev/null || true  # Debian's, for each processor
+    mv "$folder/include.new" "$folder/include"
+    rm -rf "$unpacked"
+}
+
+download_python_headers() {  # PYTHON FOLDER
+    local suite=${suites[$1]}
+    say "downloading: the headers of Python $1 from Debian's $suite"
+    logged "apt-$suite" apt_update "$suite"
+    (cd "$2" && logged "headers-$1" apt_get "$suite" download "libpython$1-dev/$suite" && dpkg-deb -x ./*.deb .)
+}
+
 # Eigen and OpenMesh, which are compiled in on every platform.
 get_dependencies() {
     if [ -d "$build/dependencies" ]; then return 0; fi
@@ -114,6 +148,13 @@ get_toolchain() {  # PLATFORM
             install_packages "${windows_packages[@]}"
             toolchain=(-D CMAKE_TOOLCHAIN_FILE="$root/native/cmake/mingw.cmake")
             ;;
+        *)
+            make_venv "$build/zig" "$python" "$zig"
+            export ZIG_GLOBAL_CACHE_DIR=$build/zig-cache ZIG_LOCAL_CACHE_DIR=$build/zig-cache  # with the C++ libraries that it builds
+            export CCACHE_COMPILERTYPE=clang
+            toolchain=(-D CMAKE_TOOLCHAIN_FILE="$root/native/cmake/zig.cmake" -D MRC_PLATFORM="$1"
+                -D MRC_ZIG="$(echo "$build"/zig/lib/python*/site-packages/ziglang/zig)")
+            ;;
     esac
 }
 
@@ -125,33 +166,48 @@ get_python() {  # PLATFORM PYTHON
             python_settings=(-D Python_INCLUDE_DIR="$build/python/$2/windows-sdk/include"
                 -D Python_LIBRARY="$build/python/$2/windows-sdk/libpython${2/./}.dll.a")
             ;;
+        *)
+            get_python_headers "$2"
+            python_settings=(-D Python_INCLUDE_DIR="$build/python/$2/include")
+            ;;
     esac
 }
 
-# Uses the variable toolchain. The prefix map keeps the folder of the build out of the files. Modules are compiled in batches, with
-# warnings as errors.
-build_platform() {  # PLATFORM TARGET CMAKE-ARGUMENT...
-    local folder=$build/platforms/$1
+# Sets settings to CMake's arguments for a platform. The prefix map keeps the folder of the build out of the files. Everything is
+# compiled in batches, with warnings as errors.
+get_settings() {  # PLATFORM
+    local toolchain
+    get_toolchain "$1"
     get_dependencies
-    logged "configure-$1" cmake -G Ninja -S "$root" -B "$folder" "${toolchain[@]}" -D CMAKE_BUILD_TYPE=Release -D CMAKE_UNITY_BUILD=ON \
-        -D CMAKE_COMPILE_WARNING_AS_ERROR=ON -D CMAKE_CXX_FLAGS_RELEASE="-O3 -DNDEBUG '-ffile-prefix-map=$root=.'" \
-        -D MRC_DEPENDENCIES="$build/dependencies" "${@:3}" &&
-        logged "build-$1" cmake --build "$folder" --target "$2" --parallel "$(nproc)"
+    settings=("${toolchain[@]}" -D CMAKE_BUILD_TYPE=Release -D CMAKE_UNITY_BUILD=ON -D CMAKE_COMPILE_WARNING_AS_ERROR=ON
+        -D CMAKE_CXX_FLAGS_RELEASE="-O3 -DNDEBUG '-ffile-prefix-map=$root=.'" -D MRC_DEPENDENCIES="$build/dependencies")
+}
+
+get_module_settings() {  # PLATFORM PYTHON
+    local python_settings
+    get_settings "$1"
+    get_python "$@"
+    settings+=(-D MRC_PYTHON=ON -D MRC_TESTS=OFF -D pybind11_DIR="$("$venv/bin/python" -m pybind11 --cmakedir)"
+        -D PYBIND11_USE_CROSSCOMPILING=ON -D PYTHON_IS_DEBUG=OFF -D PYTHON_MODULE_DEBUG_POSTFIX=
+        -D PYTHON_MODULE_EXTENSION="$(module_suffix "$@")" "${python_settings[@]}")
+}
+
+build_platform() {  # PLATFORM TARGET CMAKE-ARGUMENT...
+    logged "configure-$1" cmake -G Ninja -S "$root" -B "$build/platforms/$1" "${@:3}" &&
+        logged "build-$1" cmake --build "$build/platforms/$1" --target "$2" --parallel "$(nproc)"
 }
 
 build_module() {  # PLATFORM PYTHON: in build/platforms/PLATFORM
-    local toolchain python_settings
-    get_toolchain "$1"
-    get_python "$@"
+    local settings
     say "building: the module for $1 and Python $2"
-    build_platform "$1" mrcontour -D MRC_PYTHON=ON -D MRC_TESTS=OFF -D pybind11_DIR="$("$venv/bin/python" -m pybind11 --cmakedir)" \
-        -D PYBIND11_USE_CROSSCOMPILING=ON -D PYTHON_IS_DEBUG=OFF -D PYTHON_MODULE_DEBUG_POSTFIX= \
-        -D PYTHON_MODULE_EXTENSION="$(module_suffix "$@")" "${python_settings[@]}"
+    get_module_settings "$@"
+    build_platform "$1" mrcontour "${settings[@]}"
 }
 
 build_native_tests() {  # PLATFORM: as build/platforms/PLATFORM/tests/native/mrc_tests
-    local toolchain
-    get_toolchain "$1"
+    local settings
     say "building: the native tests for $1"
-    build_platform "$1" mrc_tests -D MRC_PYTHON=OFF -D MRC_TESTS=ON -D MRC_GOOGLETEST=/usr/src/googletest
+    install_packages googletest
+    get_settings "$1"
+    build_platform "$1" mrc_tests "${settings[@]}" -D MRC_PYTHON=OFF -D MRC_TESTS=ON -D MRC_GOOGLETEST=/usr/src/googletest
 }

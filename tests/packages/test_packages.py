@@ -10,14 +10,13 @@ from zipfile import ZipFile
 import packages as maker
 import pytest
 import tomllib
-from conftest import ROOT, only, wheel_of
+from conftest import PYTHON, ROOT, only, wheel_of
 from packaging.utils import parse_wheel_filename
 
 ADDON = ROOT / "addon"
 SOURCES = {path.relative_to(ADDON).as_posix() for path in ADDON.rglob("*.py")}
 LICENSES = {"LICENSE", "THIRD_PARTY.txt"}
 MODULE = r"mrcontour\.cpython-3\d+-[\w-]+\.so"
-LIBRARY = r"mrcontour\.libs/libOpenMeshCore-\w+\.so[\d.]*"
 
 
 def names(package):
@@ -41,11 +40,11 @@ def rest(found, patterns):
     return found
 
 
-def test_wheel_contains_module_library_stubs_and_licenses(packages, version):
+def test_wheel_contains_module_stubs_and_licenses(packages, version):
     info = f"mrcontour-{version}.dist-info"
-    wanted = [MODULE, LIBRARY, "mrcontour-stubs/__init__.pyi", *(f"{info}/licenses/{name}" for name in LICENSES)]
-    own = {f"{info}/{name}" for name in ("METADATA", "WHEEL", "RECORD", "sboms/auditwheel.cdx.json")}
-    assert rest(names(packages["wheel"]), wanted) <= own
+    wanted = [MODULE, "mrcontour-stubs/__init__.pyi", *(f"{info}/licenses/{name}" for name in LICENSES)]
+    own = {f"{info}/{name}" for name in ("METADATA", "WHEEL", "RECORD")}
+    assert rest(names(packages["wheel"]), wanted) == own
     assert "manylinux" in packages["wheel"].name
 
 
@@ -62,12 +61,12 @@ def test_extension_contains_sources_manifest_and_wheels(own_packages, extension_
     assert {name: found[name] for name in copies} == copies
 
 
-def test_legacy_add_on_contains_sources_libraries_and_licenses(own_packages, legacy_wheels):
+def test_legacy_add_on_contains_sources_modules_and_licenses(own_packages, legacy_wheels):
     found = names(own_packages["legacy"])
     assert all(name.startswith("minimum_ratio_contours/") for name in found)
-    libraries = {name for wheel in legacy_wheels for name in names(wheel) if re.fullmatch(f"{MODULE}|{LIBRARY}", name)}
-    assert len(libraries) > len(legacy_wheels)
-    assert {name.partition("/")[2] for name in found} == SOURCES | LICENSES | libraries
+    modules = {name for wheel in legacy_wheels for name in names(wheel) if re.fullmatch(MODULE, name)}
+    assert len(modules) == len(legacy_wheels)
+    assert {name.partition("/")[2] for name in found} == SOURCES | LICENSES | modules
 
 
 def test_manifest_requests_no_permissions_and_declares_its_platform(own_packages, extension_wheels, version):
@@ -148,13 +147,18 @@ def test_extension_is_reproducible_in_every_time_zone(
         assert content.namelist() == sorted(content.namelist())
 
 
-def test_library_is_loaded_from_the_package_only(own_packages, tmp_path):
+def test_nothing_is_loaded_but_the_module(own_packages, tmp_path):
     with ZipFile(own_packages["legacy"]) as content:
         content.extractall(tmp_path)
     folder = tmp_path / "minimum_ratio_contours"
-    code = "import mrcontour; print(*{line.split()[-1] for line in open('/proc/self/maps') if 'OpenMesh' in line})"
-    loaded = subprocess.run([sys.executable, "-c", code], cwd=folder, check=True, capture_output=True, text=True).stdout
-    assert loaded.strip().startswith(str(folder / "mrcontour.libs"))
+    code = """import numpy
+def loaded():
+    return {line.split()[-1] for line in open("/proc/self/maps") if ".so" in line}
+before = loaded()
+import mrcontour
+print(*(loaded() - before))"""
+    found = subprocess.run([sys.executable, "-c", code], cwd=folder, check=True, capture_output=True, text=True).stdout
+    assert found.split() == [str(only(folder.glob(f"mrcontour.cpython-{PYTHON.removeprefix('cp')}-*.so")))]
 
 
 def test_every_module_is_packaged(packages):
