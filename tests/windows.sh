@@ -12,12 +12,11 @@ make_windows_python() {
     requirements+=("bpy==$windows_release.*" colorama)  # pytest needs the last on Windows, but pip goes by the system it runs on
     contents=$(printf '%s\n' "$windows" "${embedded_pythons[3.11]}" "${requirements[@]}")
     if [ "$(cat "$windows/contents" 2>/dev/null)" = "$contents" ]; then return 0; fi
-    get_embedded_python 3.11
-    say "installing with pip into build/windows/python: ${requirements[*]}"
     rm -rf "$windows/python" "$windows/contents"
     mkdir -p "$windows"
-    cp -r "$build/python/3.11/windows" "$windows/python"
+    get_embedded_python 3.11 && cp -r "$build/python/3.11/windows" "$windows/python" || return 1
     rm "$windows"/python/*._pth  # it would keep PYTHONPATH from having an effect
+    say "installing with pip into build/windows/python: ${requirements[*]}"
     logged pip-windows "$venv/bin/python" -m pip install --disable-pip-version-check --target "$windows/python/Lib/site-packages" \
         --platform win_amd64 --python-version 3.11 --only-binary :all: "${requirements[@]}" && echo "$contents" >"$windows/contents"
 }
