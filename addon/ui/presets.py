@@ -36,8 +36,11 @@ class MESH_OT_contour_preset_add(AddPresetBase, bpy.types.Operator):
     bl_label = "Add Contour Preset"
     preset_menu = "VIEW3D_PT_minimum_ratio_contours_presets"
     preset_subdir = "minimum_ratio_contours"
-    preset_defines = [f"settings = bpy.context.window_manager.operator_properties_last({panels.OPERATOR!r})"]
-    preset_values = [f"settings.{name}" for name in SETTINGS]
+    # The whole path each time: Debian 13's Blender 4.3 has a newer Python than it was made for, in which names from
+    # `preset_defines` get lost.
+    preset_values = [
+        f"bpy.context.window_manager.operator_properties_last({panels.OPERATOR!r}).{name}" for name in SETTINGS
+    ]
 
     def execute(self, context):
         try:
