@@ -64,8 +64,11 @@ fetch_report() {  # NAME COMMAND...
 
 # All tests of the module, two cases of each, but not those of the add-on and of documents.
 run_in_oldest() {
-    make_oldest && make_site "$roots/site-x64" "$build/packages" manylinux_2_28_x86_64 manylinux_2_17_x86_64 &&
-        build_native_tests linux-x64 && fill_oldest || { record oldest-linux 0 1 0; return 0; }
+    if ! { make_oldest && make_site "$roots/site-x64" "$build/packages" manylinux_2_28_x86_64 manylinux_2_17_x86_64 &&
+        build_native_tests linux-x64 && fill_oldest; }; then
+        record oldest-linux 0 1 0
+        return 0
+    fi
     say "glibc there: $(in_oldest ldd --version | sed -n 's/.* //; 1p')"
     oldest_suite oldest-native /project/mrc_tests --gtest_brief=1 --gtest_output=xml:/results/oldest-native.xml
     oldest_suite oldest-python /python/python -m pytest -q --tb=short -p no:cacheprovider -m "not long and not slow" --few=2 \
@@ -96,8 +99,11 @@ same_bytes_arm64() {
 
 run_emulated() {
     install_packages qemu-user-static
-    make_arm64 && make_site "$roots/site-arm64" "$build/platform-packages" manylinux_2_28_aarch64 manylinux_2_17_aarch64 &&
-        build_native_tests linux-arm64 || { record arm64 0 1 0; return 0; }
+    if ! { make_arm64 && make_site "$roots/site-arm64" "$build/platform-packages" manylinux_2_28_aarch64 manylinux_2_17_aarch64 &&
+        build_native_tests linux-arm64; }; then
+        record arm64 0 1 0
+        return 0
+    fi
     suite arm64-native "${emulator[@]}" "$build/platforms/linux-arm64/tests/native/mrc_tests" --gtest_brief=1 --gtest_filter=-*Slow* \
         --gtest_output="xml:$results/arm64-native.xml"
     suite arm64-python env PYTHONPATH="$roots/site-arm64" "${emulator[@]}" "$arm64/usr/bin/python$platforms_python" -m pytest -q --tb=short \
