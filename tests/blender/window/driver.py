@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Drives a Blender window as a user does: with mouse and keys, reading the screen."""
 
+import subprocess
+
 import bpy
 import numpy as np
 from bpy_extras.view3d_utils import location_3d_to_region_2d
@@ -154,10 +156,11 @@ class Window:
         yield from self.press("LEFTMOUSE")
 
     def picture(self, name):
-        """Return the pixels of the window, and save them as a picture."""
+        """Return the pixels of the screen, and save them as a picture. In Mesa 25, those by Blender are black."""
         path = str(self.pictures / f"{name}.png")
         with self.context():
-            bpy.ops.screen.screenshot(filepath=path)
+            bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)
+        subprocess.run(["scrot", "--overwrite", path], check=True)
         image = bpy.data.images.load(path)
         pixels = np.empty(len(image.pixels), dtype=np.float32)
         image.pixels.foreach_get(pixels)

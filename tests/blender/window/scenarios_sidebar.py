@@ -11,6 +11,7 @@ from prepared import LOOP, cylinder, now
 
 BUTTON = "mesh.optimize_contour()"
 ROW = 24  # pixels from one row of settings to the next, at the default resolution
+PRESETS = 66  # pixels from the right end of the sidebar to the icon of the presets
 
 
 def remembered():
@@ -63,7 +64,7 @@ def test_a_preset_is_chosen_by_clicks(window):
     cylinder()
     yield from window.open_sidebar()
     region = window.region_of("UI")
-    yield from window.move_over(region.x + 0.7 * region.width, region.y + region.height - ROW // 2)
+    yield from window.move_over(region.x + region.width - PRESETS, region.y + region.height - ROW // 2)
     yield from window.press("LEFTMOUSE")
     yield from window.rest()
     window.picture("sidebar-presets")
