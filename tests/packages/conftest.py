@@ -58,7 +58,7 @@ class Blender:
             },
             capture_output=True,
             text=True,
-            timeout=120,
+            timeout=600,
         )
         states = [json.loads(line[6:]) for line in run.stdout.splitlines() if line.startswith("STATE ")]
         assert run.returncode == 0, run.stdout + run.stderr
