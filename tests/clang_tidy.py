@@ -54,7 +54,10 @@ class Includes:
         if path not in self.known:
             names = INCLUDE.findall(path.read_text(encoding="utf-8"))
             self.known[path] = {
-                header for header in self.headers for name in names if header.as_posix().endswith("/" + name.lstrip("./"))
+                header
+                for header in self.headers
+                for name in names
+                if header.as_posix().endswith("/" + name.lstrip("./"))
             }
         return self.known[path]
 
