@@ -152,7 +152,6 @@ get_toolchain() {  # PLATFORM
         *)
             make_venv "$build/zig" "$python" "$zig"
             export ZIG_GLOBAL_CACHE_DIR=$build/zig-cache ZIG_LOCAL_CACHE_DIR=$build/zig-cache  # with the C++ libraries that it builds
-            export CCACHE_COMPILERTYPE=clang
             toolchain=(-D CMAKE_TOOLCHAIN_FILE="$root/native/cmake/zig.cmake" -D MRC_PLATFORM="$1"
                 -D MRC_ZIG="$(echo "$build"/zig/lib/python*/site-packages/ziglang/zig)")
             ;;

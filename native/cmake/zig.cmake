@@ -18,6 +18,12 @@ else()
     set(CMAKE_SYSTEM_PROCESSOR x86_64)
 endif()
 
+# ccache cannot tell from the name of the program that this is a clang.
+find_program(CCACHE ccache)
+if(CCACHE)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_COMPILERTYPE=clang ${CCACHE})
+endif()
+
 # Zig builds its C++ library at first use, once for each level of optimization and for each choice about debug information:
 # always with these flags, also where CMake tries the compiler.
 set(CMAKE_CXX_COMPILER ${MRC_ZIG} c++ -target ${CMAKE_SYSTEM_PROCESSOR}-${zig_system} -O3 -s)
