@@ -82,14 +82,19 @@ void Triangulator::clip_ears(const Vec3& normal, std::span<const Vec3> corners) 
 
     int corner = 0;
     int left = n;
-    for (int refused = 0; left > 3 && refused < left;) {
-        if (ear(corner)) {
+    // A diagonal through another corner would leave corners in a line, which no triangles tile: only if there is no other ear.
+    double margin = straight;
+    for (int refused = 0; left > 3;) {
+        if (ear(corner, margin)) {
             clip(corner);
             --left;
             refused = 0;
+            margin = straight;
             corner = next_[corner];  // the ear's neighbor is passed over once: less slender than a fan
-        } else {
-            ++refused;
+        } else if (++refused == left) {
+            if (margin == 0.0) break;
+            refused = 0;
+            margin = 0.0;
         }
         corner = next_[corner];
     }
@@ -102,15 +107,16 @@ bool Triangulator::convex(int corner) const {
     return cross(in, out) > straight * in.norm() * out.norm();
 }
 
-bool Triangulator::ear(int corner) const {
+bool Triangulator::ear(int corner, double margin) const {
     if (!convex(corner)) return false;
     const Vec2& a = flat_[previous_[corner]];
     const Vec2& b = flat_[corner];
     const Vec2& c = flat_[next_[corner]];
+    const double beside = -margin * (a - c).squaredNorm();
     return std::ranges::none_of(blunt_, [&](int i) {
         const Vec2& p = flat_[i];
         if (p == a || p == b || p == c) return false;
-        return orientation(a, b, p) >= 0.0 && orientation(b, c, p) >= 0.0 && orientation(c, a, p) >= 0.0;
+        return orientation(a, b, p) >= 0.0 && orientation(b, c, p) >= 0.0 && orientation(c, a, p) >= beside;
     });
 }
 

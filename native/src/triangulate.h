@@ -33,7 +33,7 @@ class Triangulator {
 
     void clip_ears(const Vec3& normal, std::span<const Vec3> corners);
     bool convex(int corner) const;
-    bool ear(int corner) const;
+    bool ear(int corner, double margin) const;
     void clip(int corner);
     void fan(int corner, int count);
 };

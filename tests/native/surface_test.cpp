@@ -588,11 +588,12 @@ TEST(Triangulation, ConcavePolygonsAreTiledByPositiveAreas) {
             expect_tiled(corners, random);
         }
     }
+    // Its corners lie on few lines, so rounding, which differs by plane, decides whether a diagonal runs through others.
     for (int teeth = 1; teeth < 12; ++teeth) {
         auto corners = comb(teeth);
         for (size_t start = 0; start < corners.size(); ++start) {
             std::rotate(corners.begin(), corners.begin() + 1, corners.end());
-            expect_tiled(corners, random);
+            for (int k = 0; k < 10; ++k) expect_tiled(corners, random);
         }
     }
 }
