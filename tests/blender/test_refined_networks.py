@@ -141,8 +141,10 @@ def test_two_runs_give_the_same_result():
 def test_scripts_in_object_mode_get_the_same_as_in_edit_mode(source):
     found = []
     for mode in ("OBJECT", "EDIT"):
-        obj = labeled_tilted(three_labels(), source)
-        obj.data.uv_layers.new(name="UVMap")
+        obj = tilted_cylinder()
+        obj.data.uv_layers.new(name="UVMap")  # not in Edit Mode, where it takes Blender 5.1.2 down
+        set_labels(obj, source, three_labels())
+        edit(obj)
         bpy.ops.object.mode_set(mode=mode)
         results = api.optimize_segmentation(obj, apply=True, merge=0.1, **where(source), **REFINED)
         assert any((result.vertices < 0).any() for result in results)
