@@ -88,8 +88,10 @@ get_embedded_python() {  # PYTHON
 
 # An import library with everything that the library of Python exports.
 make_import_library() {  # DLL TARGET
-    { printf 'LIBRARY %s\nEXPORTS\n' "$(basename "$1")"
-      x86_64-w64-mingw32-objdump -p "$1" | sed -n '/Name Pointer. Table/,$ s/^\t\[.*\] //p'; } >"$2.def" &&
+    "$venv/bin/python" -c 'import lief, pathlib, sys
+library = lief.PE.parse(sys.argv[1])  # its parts live no longer than it does
+print("LIBRARY", pathlib.Path(sys.argv[1]).name, "EXPORTS", *(entry.name for entry in library.get_export().entries), sep="\n")' \
+        "$1" >"$2.def" &&
         x86_64-w64-mingw32-dlltool --deterministic-libraries -d "$2.def" -l "$2"
 }
 
