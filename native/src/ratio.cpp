@@ -195,6 +195,29 @@ class HullSweep {
     }
 };
 
+/// The least f / g of an arc.
+double least_slope(const WeightedGraph& graph) {
+    double least = infinity;
+    for (int arc = 0; arc < graph.arc_count(); ++arc) least = std::min(least, graph.f[arc] / graph.g[arc]);
+    return least;
+}
+
+/// Offers the paths found at slopes below the first one, down to that of a path as long as expected and as good as can be. With a
+/// bias the first may be so high that it rewards length: where triangles are long, the search would see nothing but paths to their
+/// far ends and back, and none of its pairs' own.
+void look_below(const WeightedGraph& graph, const RatioOptions& options, Incumbent& incumbent, Relaxation& relaxation) {
+    if (options.objective.bias == 0.0 || !options.guess || graph.arc_count() == 0 || graph.destinations.empty()) return;
+    const double first = incumbent.lambda();
+    const double last = least_slope(graph) - options.objective.scale * options.objective.bias * options.guess->g;
+    for (const double part : {0.5, 1.0}) {
+        if (!(last < first)) return;
+        relaxation.run(first_numbers(graph.sources.size()), first + part * (last - first));
+        for (int i = 0; i < static_cast<int>(graph.destinations.size()); ++i) {
+            if (relaxation.bound(relaxation.last(), i) < infinity && relaxation.own(i)) incumbent.offer(relaxation.path_to(i));
+        }
+    }
+}
+
 RatioResult result_of(const Incumbent& incumbent, const Relaxation& relaxation) {
     RatioResult result;
     result.found = incumbent.found();
@@ -212,6 +235,7 @@ RatioResult result_of(const Incumbent& incumbent, const Relaxation& relaxation) 
 RatioResult minimum_ratio(const WeightedGraph& graph, const RatioOptions& options) {
     Incumbent incumbent(options);
     Relaxation relaxation(graph, options.beat);
+    look_below(graph, options, incumbent, relaxation);
     const std::vector<int> hulls = BranchAndBound(graph, incumbent, relaxation).run();
     if (hulls.empty()) return result_of(incumbent, relaxation);
     // Only now, with the best of all pairs' own paths, what is left: most of it is decided by that.

@@ -317,4 +317,41 @@ TEST(Ratio, a_graph_without_a_path_has_no_result) {
     EXPECT_FALSE(mrc::minimum_ratio(graph).found);
 }
 
+/// Rows of nodes round a band, a quarter of a unit apart along each. Between rows arcs are long and cost next to nothing, as along
+/// the straight edges of a shaft; the first row is what was given, the second the best, the last far away.
+WeightedGraph rows_joined_by_long_arcs() {
+    constexpr int columns = 120, rows = 5;
+    constexpr std::array<double, rows> height = {0.0, 1.0, 40.0, 90.0, 200.0}, cost = {1.4, -1.0, 0.1, 0.1, 0.1};
+    WeightedGraph graph;
+    graph.first_arc.push_back(0);
+    for (int node = 0; node < columns * rows; ++node) {
+        const int column = node / rows, row = node % rows;
+        for (int other = 0; other < rows && column > 0; ++other) {
+            const double away = std::abs(height[row] - height[other]), length = 0.25 + away;
+            const double far = 0.5 * (height[row] + height[other]) / 5.0;
+            graph.from.push_back((column - 1) * rows + other);
+            graph.g.push_back(length);
+            graph.f.push_back((0.25 * 0.5 * (cost[row] + cost[other])) + 0.02 * length * far * far);
+        }
+        graph.first_arc.push_back(graph.arc_count());
+    }
+    for (int row = 0; row < rows; ++row) {
+        graph.sources.push_back({row});
+        graph.destinations.push_back({(columns - 1) * rows + row});
+    }
+    return graph;
+}
+
+TEST(LengthBias, is_not_led_astray_by_a_guess_at_which_long_ways_pay) {
+    const WeightedGraph graph = rows_joined_by_long_arcs();
+    const double length = 0.25 * 119;
+    mrc::RatioOptions options;
+    options.objective = {.scale = 0.3, .bias = 2.0 / length, .floor = 0.5 * length};
+    options.guess = mrc::Terminal{-1, 1.4 * length, length};
+    const mrc::RatioResult result = mrc::minimum_ratio(graph, options);
+    EXPECT_EQ(result.labels, 0);
+    EXPECT_NEAR(result.lower_bound, result.objective, 1e-12);
+    EXPECT_LT(result.objective, options.objective.value(-0.9 * length, length));
+}
+
 }  // namespace
