@@ -14,7 +14,7 @@ FRAGMENT, GAP = 9, 10  # of 3.3, in edges: the length of each of the two grooves
 TORSO_GROOVES, TORSO_WAIST = (-0.15, 0.3, 0.75, 1.2), -1.05  # heights
 EYES, EYE = 15.0, (10.0, 4.0)  # distance of the eyes from the middle; their half length and half height
 FACE = (11.0, 14.0)  # half axes of the face's outline
-NECK = (4.5, 1.6, 0.6)  # the crease below the chin: distance from the outline, depth, and extent as an angle
+NECK = (4.5, 2.2, 0.6)  # the crease below the chin: distance from the outline, depth, and extent as an angle
 
 
 @dataclass(frozen=True)
@@ -199,7 +199,7 @@ def eyes():
 
     def height(x, z):
         away = eye_distance(x, z)
-        return 1.2 / (1 + np.exp(2 * away)) - 1.3 * valley(away, 1.1)
+        return 1.2 / (1 + np.exp(2 * away)) - 1.1 * valley(away, 1.1)
 
     positions, faces = relief(39, 61, height, (0.012, 0.02), np.random.default_rng(55))
     centers = np.array([positions[list(face)].mean(axis=0) for face in faces])

@@ -123,12 +123,12 @@ struct PyCurvature {
     Doubles kappa_min, kappa_max, direction_min, direction_max;
 };
 
-PyCurvature curvature(const Surface& surface, const Options& options, const std::optional<Scales>& scales) {
+PyCurvature curvature(const Surface& surface, const Options& options, const std::optional<Scales>&) {
     const mrc::Progress interruption = to_progress(py::none());
     std::vector<mrc::VertexCurvature> values;
     {
         const py::gil_scoped_release release;
-        values = mrc::curvature(surface, options, scales, interruption);
+        values = mrc::curvature(surface, options, interruption);
     }
     std::vector<double> least, most;
     least.reserve(values.size()), most.reserve(values.size());
@@ -366,8 +366,8 @@ void bind_queries(py::module_& module, const py::arg_v& defaults) {
            py::arg("surface"), py::arg("vertices"), py::arg("progress") = py::none());
     define(
         module, "curvature", &curvature,
-        "The curvatures at all vertices (3.4), a Curvature; without scales, h is the surface's mean edge length. Of the options\n"
-        "it uses curvature_radius and curvature_smoothing.",
+        "The curvatures at all vertices (3.4), a Curvature. They depend on the surface alone, and not on how a flat or straight\n"
+        "part of it is cut up. Of the options it uses curvature_radius and curvature_smoothing; scales has no effect any more.",
         py::arg("surface"), defaults, py::arg("scales") = py::none());
     define_worded(
         module, "band", &band, &overloads_by_sides,

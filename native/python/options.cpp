@@ -131,11 +131,11 @@ const std::vector<Row>& rows() {
               "where the best found is less salient than this, the given contour stays;\n"
               "None: it always moves"),
         field("curvature_radius", &Options::curvature_radius,
-              "of the disk that curvature is averaged over, in mean edge lengths,\n"
-              "above 0 (3.4)"),
+              "of the disk that curvature is averaged over, in h, the local scale of\n"
+              "the surface, about 0.84 edges; above 0 (3.4)"),
         field("curvature_smoothing", &Options::curvature_smoothing,
-              "sigma of the tensor's Gaussian, in mean edge lengths, 0 or more; 0: none\n"
-              "(3.4)"),
+              "widens the disk and softens its rim as a Gaussian of this sigma would,\n"
+              "in h, 0 or more; 0: the plain disk of eq. 3.4"),
         field("kappa0_factor", &Options::kappa0_factor, "kappa_0 of eq. 3.2 over the mean curvature K, above 0"),
         field("feature_exponent", &Options::feature_exponent, "a: K |kappa / K|^a instead of |kappa|, above 0, at most 16"),
         field("direction_exponent", &Options::direction_exponent,

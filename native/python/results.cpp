@@ -80,8 +80,9 @@ void bind_scales(py::module_& module) {
     define_equality(scales);
     define_copies(scales);
     scales.def(py::pickle(&scales_state, &scales_from_state));
-    scales.def_readonly("h", &Scales::h, "Mean edge length within 4 rings of the contour, in the mesh's unit.")
-        .def_readonly("K", &Scales::K, "Area-weighted mean of |kappa_min| there (ridge: |kappa_max|), at least 0.01 / L0.")
+    scales
+        .def_readonly("h", &Scales::h, "Mean along the contour of the surface's local scale, about 0.84 edges, in the mesh's unit.")
+        .def_readonly("K", &Scales::K, "Area-weighted mean of |kappa_min| nearby (ridge: |kappa_max|), at least 0.01 / L0.")
         .def_readonly("kappa_0", &Scales::kappa_0, "The constant of eq. 3.2: kappa0_factor K.")
         .def_readonly("L0", &Scales::L0, "Length of the contour, in the mesh's unit.")
         .def_readonly("clamp", &Scales::clamp, "Where the size of feature curvatures is cut off; infinity: nowhere.")

@@ -104,7 +104,7 @@ class ClosingSearch {
           monitor_(monitor),
           limb_(limb_at(surface, chain)),
           from_chain_(surface, vertex_contour(chain, false)),
-          curvature_(surface, mean_edge_length(surface, vertex_contour(chain, false)), unsmoothed()),
+          curvature_(surface, unsmoothed()),
           inner_(chain.begin() + 1, chain.end() - 1) {}
 
     /// The vertices between the chain's last and its first.

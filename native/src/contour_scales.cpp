@@ -13,6 +13,8 @@ namespace mrc {
 namespace {
 
 constexpr int near_rings = 4;
+constexpr double near_extent = 7.0;  // in h
+constexpr double most_area = 3.0;    // of a vertex, in the square of its h: long triangles do not count as wide ones
 
 std::vector<int> contour_ends(const Contour& contour) {
     std::vector<int> vertices;
@@ -21,6 +23,16 @@ std::vector<int> contour_ends(const Contour& contour) {
         if (!p.is_vertex()) vertices.push_back(p.b);
     }
     return vertices;
+}
+
+/// Of the local scale along the contour; linear inside an edge, so that points put on its edges do not change it.
+double mean_scale(const Surface& surface, const CurvatureField& field, const Contour& contour, double length) {
+    const auto at = [&](const SurfacePoint& p) {
+        return p.is_vertex() ? field.scale(p.a) : (1.0 - p.t) * field.scale(p.a) + p.t * field.scale(p.b);
+    };
+    double sum = 0.0;
+    for (const auto& [p, q] : segments(contour)) sum += 0.5 * (at(p) + at(q)) * (surface.position(q) - surface.position(p)).norm();
+    return sum / length;
 }
 
 /// The ceil(q n)-th smallest of n values.
@@ -39,40 +51,28 @@ double contour_length(const Surface& surface, const Contour& contour) {
     return length;
 }
 
-double mean_edge_length(const Surface& surface, const Contour& contour) {
-    const std::vector<int> near = vertices_within(surface, contour_ends(contour), near_rings);
-    const std::unordered_set<int> inside(near.begin(), near.end());
-    std::vector<std::pair<int, double>> lengths;  // by edge, so that each counts once
-    for (const int v : near) {
-        surface.for_each_real_edge(v, [&](int neighbor, int edge) {
-            if (inside.contains(neighbor)) lengths.emplace_back(edge, (surface.position(neighbor) - surface.position(v)).norm());
-        });
-    }
-    std::ranges::sort(lengths);
-    lengths.erase(std::ranges::unique(lengths, {}, &std::pair<int, double>::first).begin(), lengths.end());
-    double sum = 0.0;
-    for (const auto& [edge, length] : lengths) sum += length;
-    if (!(sum > 0.0))
-        throw InvalidInput(ErrorCode::no_length, "every edge near the contour has length 0: there is nothing to measure");
-    return sum / static_cast<double>(lengths.size());
-}
-
-Scales contour_scales(const Surface& surface, const CurvatureField& field, double h, const Contour& contour, const Options& options,
+Scales contour_scales(const Surface& surface, const CurvatureField& field, const Contour& contour, const Options& options,
                       const Beat& beat) {
+    const double length = contour_length(surface, contour);
+    if (!(length > 0.0)) throw InvalidInput(ErrorCode::no_length, "the contour has length 0: all its vertices lie at one point");
+    const double h = mean_scale(surface, field, contour, length);
+    std::vector<int> near = vertices_within(surface, contour_ends(contour), near_rings);
+    const DistanceField distance(surface, contour);
+    std::erase_if(near, [&](int v) { return !distance.reaches(v, near_extent * h); });
+    field.prepare(near, beat);
     double weighted = 0.0, area = 0.0;
     std::vector<double> features;
-    const std::vector<int> near = vertices_within(surface, contour_ends(contour), near_rings);
-    field.prepare(near, beat);
     for (const int v : near) {
-        const double weight = vertex_area(surface, v), kappa = feature_curvature(field.at(v), options.feature);
+        const double scale = field.scale(v);
+        const double weight = std::min(vertex_area(surface, v), most_area * scale * scale),
+                     kappa = feature_curvature(field.at(v), options.feature);
         weighted += weight * std::abs(kappa);
         area += weight;
         if (kappa < 0.0) features.push_back(-kappa);
     }
     Scales scales;
     scales.h = h;
-    scales.L0 = contour_length(surface, contour);
-    if (!(scales.L0 > 0.0)) throw InvalidInput(ErrorCode::no_length, "the contour has length 0: all its vertices lie at one point");
+    scales.L0 = length;
     scales.K = std::max(area > 0.0 ? weighted / area : 0.0, 0.01 / scales.L0);  // so that flat bands work
     if (options.feature_clamp && !features.empty()) scales.clamp = quantile(features, *options.feature_clamp);
     scales.kappa_0 = options.kappa0_factor * scales.K;

@@ -11,12 +11,8 @@ namespace mrc {
 
 double contour_length(const Surface& surface, const Contour& contour);
 
-/// The mean edge length h near a contour.
 /// @throws InvalidInput where every edge there has length 0.
-double mean_edge_length(const Surface& surface, const Contour& contour);
-
-/// `field` must be made with h = mean_edge_length(surface, contour).
-Scales contour_scales(const Surface& surface, const CurvatureField& field, double h, const Contour& contour, const Options& options,
+Scales contour_scales(const Surface& surface, const CurvatureField& field, const Contour& contour, const Options& options,
                       const Beat& beat = {});
 
 }  // namespace mrc

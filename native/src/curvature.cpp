@@ -6,32 +6,15 @@
 
 #include <mrc/errors.h>
 
+#include <algorithm>
 #include <numeric>
 
 namespace mrc {
-namespace {
-
-double whole_mean_edge_length(const Surface& surface) {
-    double sum = 0.0;
-    int count = 0;
-    for (int h = 0; h < surface.halfedge_count(); ++h) {
-        if (surface.diagonal(h) || surface.twin(h) > h) continue;
-        sum += (surface.position(surface.to(h)) - surface.position(surface.from(h))).norm();
-        ++count;
-    }
-    if (!(sum > 0.0))
-        throw InvalidInput(ErrorCode::no_length, "every edge of the surface has length 0: there is nothing to measure");
-    return sum / count;
-}
-
-}  // namespace
-
-std::vector<VertexCurvature> curvature(const Surface& surface, const Options& options, const std::optional<Scales>& scales,
-                                       const Progress& progress) {
+std::vector<VertexCurvature> curvature(const Surface& surface, const Options& options, const Progress& progress) {
     options.check();
     std::vector<VertexCurvature> result;
     if (surface.face_count() == 0) return std::vector<VertexCurvature>(surface.vertex_count());
-    const CurvatureField field(surface, scales ? scales->h : whole_mean_edge_length(surface), options);
+    const CurvatureField field(surface, options);
     std::vector<int> all(surface.vertex_count());
     std::iota(all.begin(), all.end(), 0);
     const bool done = with_monitor(progress, [&](ProgressMonitor& monitor) {
@@ -39,6 +22,8 @@ std::vector<VertexCurvature> curvature(const Surface& surface, const Options& op
         monitor.advance(1.0);
     });
     if (!done) return {};
+    if (std::ranges::none_of(all, [&](int v) { return field.scale(v) > 0.0; }))
+        throw InvalidInput(ErrorCode::no_length, "every edge of the surface has length 0: there is nothing to measure");
     for (const int v : all) result.push_back(field.at(v));
     return result;
 }

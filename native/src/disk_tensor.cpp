@@ -44,8 +44,10 @@ void DiskTensors::reserve(int vertices) {
     spans_.reserve(edges);
 }
 
-Symmetric DiskTensors::at(int vertex) {
+Symmetric DiskTensors::at(int vertex, double radius, bool soft) {
     const Vec3& center = surface_->position(vertex);
+    radius2_ = radius * radius;
+    soft_ = soft;
     ++disk_count_;
     disk_.clear();
     for (const int h : surface_->outgoing(vertex)) meet(triangle_number(h / 3));
@@ -60,7 +62,7 @@ Symmetric DiskTensors::at(int vertex) {
             if (!met) continue;
             if (const int next = neighbor(disk_[i], side); next != none) meet(next);
         }
-        area += whole ? 0.5 * triangles_[disk_[i]].doubled_area : area_inside(triangles_[disk_[i]], center);
+        area += whole ? whole_area(triangles_[disk_[i]], center) : area_inside(triangles_[disk_[i]], center);
     }
     if (area > 0.0) sum /= area;
     return sum;
@@ -79,35 +81,53 @@ bool DiskTensors::cut(int edge, const Vec3& center, Symmetric& sum) {
     const Edge& e = edges_[edge];
     span = {disk_count_, 0.0, 0.0};
     const Vec3 start = e.start - center;
-    const double along = start.dot(e.vector), start2 = start.squaredNorm(), radius2 = radius_ * radius_;
-    if (start2 <= radius2 && start2 + 2.0 * along + e.length2 <= radius2 && e.length2 > 0.0) {  // most edges lie wholly inside
+    const double along = start.dot(e.vector), start2 = start.squaredNorm();
+    if (start2 <= radius2_ && start2 + 2.0 * along + e.length2 <= radius2_ && e.length2 > 0.0) {  // most edges lie wholly inside
         span.leave = 1.0;
-        sum += e.bending;
+        sum += (soft_ ? 1.0 - (start2 + along + e.length2 / 3.0) / radius2_ : 1.0) * e.bending;
         return true;
     }
     const double middle = -along * e.inverse_length2;
-    const double half2 = (radius2 - (start + middle * e.vector).squaredNorm()) * e.inverse_length2;
+    const double half2 = (radius2_ - (start + middle * e.vector).squaredNorm()) * e.inverse_length2;
     if (half2 <= 0.0) return false;
     const double half = std::sqrt(half2);
     span.enter = std::clamp(middle - half, 0.0, 1.0);
     span.leave = std::clamp(middle + half, 0.0, 1.0);
     if (span.leave <= span.enter) return false;
-    sum += (span.leave - span.enter) * e.bending;
+    const double a = span.enter, b = span.leave;
+    const double mean2 = start2 + along * (a + b) + e.length2 * (a * a + a * b + b * b) / 3.0;  // of the distance squared
+    sum += (b - a) * (soft_ ? 1.0 - mean2 / radius2_ : 1.0) * e.bending;
     return true;
 }
 
-/// The area of the triangle inside the ball: straight pieces of its sides, and arcs of the circle in its plane that join them,
-/// all turning left around the area.
+/// Of a triangle wholly inside.
+double DiskTensors::whole_area(const Triangle& t, const Vec3& center) const {
+    if (!soft_) return 0.5 * t.doubled_area;
+    const auto& v = surface_->triangle(t.id);
+    const Vec3 a = surface_->position(v[0]) - center, b = surface_->position(v[1]) - center, c = surface_->position(v[2]) - center;
+    const double mean2 = (a.squaredNorm() + b.squaredNorm() + c.squaredNorm() + a.dot(b) + b.dot(c) + c.dot(a)) / 6.0;
+    return 0.5 * t.doubled_area * (1.0 - mean2 / radius2_);
+}
+
+/// The area of the triangle inside the ball, by Green's theorem: straight pieces of its sides, and arcs of the circle in its plane
+/// that join them, all turning left around the area. Soft, with rho the distance from the foot of the center in the plane and z its
+/// height, it is the integral of (R^2 - z^2 - rho^2) / R^2.
 double DiskTensors::area_inside(const Triangle& t, const Vec3& center) const {
     if (t.doubled_area == 0.0) return 0.0;
     const Vec3 away = center - t.origin;
     const double height = away.dot(t.normal);
-    const double radius2 = radius_ * radius_ - height * height;
+    const double radius2 = radius2_ - height * height;
     if (radius2 <= 0.0) return 0.0;
     const Vec2 foot(away.dot(t.x), away.dot(t.y));
     const std::array<Vec2, 3> corners{-foot, t.second - foot, t.third - foot};
     const auto outside = [&](const Vec2& p) { return p.squaredNorm() > radius2; };
-    if (std::ranges::none_of(corners, outside)) return 0.5 * t.doubled_area;
+    if (std::ranges::none_of(corners, outside)) return whole_area(t, center);
+    // Twice what lies between the foot and a straight piece or an arc.
+    const auto line = [&](const Vec2& p, const Vec2& q) {
+        if (!soft_) return cross(p, q);
+        return cross(p, q) * (radius2 - (p.squaredNorm() + p.dot(q) + q.squaredNorm()) / 6.0) / radius2_;
+    };
+    const auto arc = [&](double angle) { return radius2 * angle * (soft_ ? 0.5 * radius2 / radius2_ : 1.0); };
     struct Piece {
         Vec2 from, to;
         bool starts_inside, ends_inside;
@@ -124,18 +144,18 @@ double DiskTensors::area_inside(const Triangle& t, const Vec3& center) const {
         const double enter = t.forward[side] ? span.enter : 1.0 - span.leave,
                      leave = t.forward[side] ? span.leave : 1.0 - span.enter;
         pieces[count] = {a + enter * vector, a + leave * vector, enter == 0.0, leave == 1.0};
-        doubled += cross(pieces[count].from, pieces[count].to);
+        doubled += line(pieces[count].from, pieces[count].to);
         ++count;
     }
-    if (count == 0) return foot_inside ? std::numbers::pi * radius2 : 0.0;
+    if (count == 0) return foot_inside ? 0.5 * arc(2.0 * std::numbers::pi) : 0.0;
     if (count == 1) {
         // One side alone cuts the circle: more than half of it is inside, or less; nothing where a corner just touches it.
         const double cut_off = std::abs(elementary::atan2(cross(pieces[0].from, pieces[0].to), pieces[0].from.dot(pieces[0].to)));
-        return 0.5 * (doubled + radius2 * (foot_inside ? 2.0 * std::numbers::pi - cut_off : cut_off));
+        return 0.5 * (doubled + arc(foot_inside ? 2.0 * std::numbers::pi - cut_off : cut_off));
     }
     for (int i = 0; i < count; ++i) {
         const Piece &last = pieces[i], &next = pieces[(i + 1) % count];
-        if (!last.ends_inside || !next.starts_inside) doubled += radius2 * turn(last.to, next.from);
+        if (!last.ends_inside || !next.starts_inside) doubled += arc(turn(last.to, next.from));
     }
     return std::max(0.0, 0.5 * doubled);
 }

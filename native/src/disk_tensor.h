@@ -25,14 +25,14 @@ inline Eigen::Matrix3d full(const Symmetric& s) {
 /// The curvature tensor of eq. 3.4 at single vertices: F = 1 / |B| sum beta(e) |e in B| e e^T, with B the disk about the vertex.
 ///
 /// The disk is the part of a ball that is connected to the vertex along the surface, so that the other side of a thin plate stays
-/// out. What depends on an edge or a triangle alone is kept, since the disks of neighbors overlap.
+/// out. A soft disk weighs edges and area with 1 - d^2 / radius^2, d being the distance from the vertex. What depends on an edge or a triangle alone is kept, since the disks of neighbors overlap.
 class DiskTensors {
   public:
-    DiskTensors(const Surface& surface, double radius) : surface_(&surface), radius_(radius) {}
+    explicit DiskTensors(const Surface& surface) : surface_(&surface) {}
 
     /// Reserves what the disks of so many vertices need in most meshes.
     void reserve(int vertices);
-    Symmetric at(int vertex);
+    Symmetric at(int vertex, double radius, bool soft);
     /// The signed angle between the normals at a half-edge's edge, in radians, negative where concave; 0 at borders.
     double dihedral(int halfedge) { return edges_[edge_number(halfedge)].angle; }
 
@@ -59,7 +59,8 @@ class DiskTensors {
     static constexpr int unknown = -2, none = -1;
 
     const Surface* surface_;
-    double radius_;
+    double radius2_ = 0.0;  // of the current disk
+    bool soft_ = false;
     IndexMap edge_numbers_, triangle_numbers_;
     std::vector<Edge> edges_;
     std::vector<Span> spans_;  // of edges_
@@ -75,6 +76,7 @@ class DiskTensors {
     void meet(int number);
     bool cut(int edge, const Vec3& center, Symmetric& sum);
     double area_inside(const Triangle& triangle, const Vec3& center) const;
+    double whole_area(const Triangle& triangle, const Vec3& center) const;
 };
 
 }  // namespace mrc

@@ -29,9 +29,8 @@ void check_scales(const Surface& surface, const Scales& scales) {
 
 SearchContext::SearchContext(const Surface& surface, const Contour& contour, const Options& options,
                              const std::vector<Attractor>& attractors, const std::optional<Scales>& given, const Beat& beat)
-    : h(given ? given->h : mean_edge_length(surface, contour)),
-      field(surface, h, options),
-      scales(given ? *given : contour_scales(surface, field, h, contour, options, beat)),
+    : field(surface, options),
+      scales(given ? *given : contour_scales(surface, field, contour, options, beat)),
       energy(surface, field, scales, options, attractors) {
     check_scales(surface, scales);
 }

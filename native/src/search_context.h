@@ -21,7 +21,6 @@ struct SearchContext {
     SearchContext(const SearchContext&) = delete;
     SearchContext& operator=(const SearchContext&) = delete;
 
-    double h;  ///< the mean edge length
     CurvatureField field;
     Scales scales;
     Energy energy;

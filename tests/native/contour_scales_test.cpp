@@ -3,6 +3,7 @@
 
 #include "contour_scales.h"
 #include "distances.h"
+#include "local_scale.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +11,8 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 namespace mrc {
 namespace {
@@ -23,8 +26,7 @@ class ScalesOf : public testing::Test {
 
     static Scales scales(const made::Mesh& mesh, const Contour& contour, const Options& options = {}) {
         const Surface surface = mesh.surface();
-        const double h = mean_edge_length(surface, contour);
-        return contour_scales(surface, CurvatureField(surface, h, options), h, contour, options);
+        return contour_scales(surface, CurvatureField(surface, options), contour, options);
     }
     static made::Mesh scaled(const made::Mesh& mesh, double by) {
         return mesh.mapped([=](const Vec3& p) { return Vec3(by * p); });
@@ -38,18 +40,50 @@ TEST_F(ScalesOf, a_ring_has_the_length_of_its_polygon_and_an_open_one_lacks_the_
     EXPECT_NEAR(scales(tube, loop).L0, perimeter, 1e-12);
 }
 
-TEST_F(ScalesOf, a_contour_has_the_mean_edge_of_what_lies_up_to_four_edges_off) {
-    const auto squares = made::plate(30, 10);
-    const auto stretched = squares.mapped([](const Vec3& p) { return Vec3(p.x() + 100.0 * std::max(0.0, p.x() - 9.0), p.y(), 0); });
-    const Contour line = vertex_contour(std::vector<int>{5 + 31 * 4, 5 + 31 * 5, 5 + 31 * 6}, false);
-    EXPECT_DOUBLE_EQ(mean_edge_length(squares.surface(), line), 1.0);
-    EXPECT_DOUBLE_EQ(mean_edge_length(stretched.surface(), line), 1.0);
-    EXPECT_GT(
-        mean_edge_length(
-            squares.mapped([](const Vec3& p) { return Vec3(p.x() + 100.0 * std::max(0.0, p.x() - 8.0), p.y(), 0); }).surface(),
-            line),
-        1.0);
-    EXPECT_THROW(mean_edge_length(squares.mapped([](const Vec3&) { return Vec3(1, 1, 1); }).surface(), line), InvalidInput);
+TEST_F(ScalesOf, a_contour_has_the_mean_of_the_local_scale_along_it) {
+    const made::Mesh squares = made::plate(30, 10);
+    const made::Mesh wide =
+        squares.mapped([](const Vec3& p) { return Vec3(p.x() + 2.0 * std::max(0.0, p.x() - 15.0), p.y(), 0.1 * p.x()); });
+    const Contour fine = vertex_contour(std::vector<int>{5 + 31 * 4, 5 + 31 * 5, 5 + 31 * 6}, false),
+                  coarse = vertex_contour(std::vector<int>{25 + 31 * 4, 25 + 31 * 5, 25 + 31 * 6}, false);
+    std::vector<int> across(31);
+    std::iota(across.begin(), across.end(), 31 * 5);
+    double sum = 0.0, length = 0.0;
+    const Surface surface = wide.surface();
+    LocalScale scale(surface);
+    for (std::size_t i = 1; i < across.size(); ++i) {
+        const double size = (wide.points[across[i]] - wide.points[across[i - 1]]).norm();
+        sum += 0.5 * size * (scale.at(across[i - 1]) + scale.at(across[i]));
+        length += size;
+    }
+    EXPECT_NEAR(scales(wide, vertex_contour(across, false)).h, sum / length, 1e-12);
+    EXPECT_NEAR(scales(squares, fine).h, scales(squares, coarse).h, 1e-12);
+    EXPECT_NEAR(scales(squares, fine).h, std::pow(2.0, -0.25), 1e-12);
+    EXPECT_GT(scales(wide, coarse).h, 1.05 * scales(wide, fine).h);
+    EXPECT_THROW(scales(squares.mapped([](const Vec3&) { return Vec3(1, 1, 1); }), fine), InvalidInput);
+}
+
+TEST_F(ScalesOf, a_contour_do_not_depend_on_how_far_triangles_reach_that_end_near_it) {
+    // A groove round a tube, whose straight parts on both sides are cut into rings of other lengths.
+    const auto grooved = [](double step) {
+        std::vector<std::pair<double, double>> profile;  // radius and height
+        for (double z = -32.0; z < -0.9; z += step) profile.emplace_back(1.0, z - 1.0);
+        for (const double z : {-1.0, -0.5, 0.0, 0.5, 1.0}) profile.emplace_back(0.8 + 0.2 * std::abs(z), z);
+        for (double z = step; z < 32.1; z += step) profile.emplace_back(1.0, z + 1.0);
+        return profile;
+    };
+    std::vector<Scales> found;
+    for (const double step : {32.0, 4.0, 1.0}) {
+        const auto profile = grooved(step);
+        const made::Mesh mesh = made::turned(profile, 32);
+        const auto middle = std::ranges::find(profile, std::pair(0.8, 0.0)) - profile.begin();
+        found.push_back(scales(mesh, made::ring(32, static_cast<int>(middle))));
+    }
+    for (const Scales& s : found) {
+        EXPECT_NEAR(s.h, found[0].h, 0.03 * found[0].h);
+        EXPECT_NEAR(s.K, found[0].K, 0.15 * found[0].K);
+        EXPECT_DOUBLE_EQ(s.L0, found[0].L0);
+    }
 }
 
 TEST_F(ScalesOf, a_tube_has_its_curvature_as_k_only_where_it_is_a_feature) {
@@ -87,8 +121,7 @@ TEST_F(ScalesOf, a_clamp_is_the_quantile_of_the_features_up_to_four_edges_off) {
     std::vector<int> inner;
     for (int i = 0; i < 48; ++i) inner.push_back(16 * i + 8);
     const Contour contour = vertex_contour(inner);
-    const double h = mean_edge_length(surface, contour);
-    const CurvatureField field(surface, h, {});
+    const CurvatureField field(surface, {});
     std::vector<double> features;
     for (const int v : vertices_within(surface, inner, 4)) {
         if (field.at(v).kappa_min < 0.0) features.push_back(-field.at(v).kappa_min);
@@ -98,7 +131,7 @@ TEST_F(ScalesOf, a_clamp_is_the_quantile_of_the_features_up_to_four_edges_off) {
         Options options;
         options.feature_clamp = q;
         const auto place = static_cast<std::size_t>(std::ceil(q * static_cast<double>(features.size()))) - 1;
-        EXPECT_EQ(contour_scales(surface, field, h, contour, options).clamp, features[place]);
+        EXPECT_EQ(contour_scales(surface, field, contour, options).clamp, features[place]);
     }
 }
 

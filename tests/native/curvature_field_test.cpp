@@ -22,7 +22,7 @@ class CurvatureField : public testing::Test {
 
     CurvatureField() { std::iota(all.begin(), all.end(), 0); }
 
-    mrc::CurvatureField field() const { return {surface, 0.3, mrc::Options()}; }
+    mrc::CurvatureField field() const { return {surface, mrc::Options()}; }
 
     /// Vertex by vertex.
     std::vector<VertexCurvature> expected() const { return read(field()); }

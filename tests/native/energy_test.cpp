@@ -94,7 +94,7 @@ TEST_F(EnergyOf, a_crease_grows_with_the_sine_of_its_angle_up_to_three) {
 TEST_F(EnergyOf, a_point_has_the_anchors_square_of_its_distance_and_what_attracts_it) {
     options.anchor = 0.7;
     const SearchContext context(hollow, loop, options, {{8 * around, 0.6, 2.0, 0.5}}, std::nullopt);
-    const auto& [h, field, scales, energy] = context;
+    const auto& [field, scales, energy] = context;
     const double radius = scales.L0 / (2.0 * std::numbers::pi);
     for (const int row : {3, 8, 9, 10, 15}) {
         const double d = 0.25 * std::abs(row - 8);

@@ -45,8 +45,8 @@ class FlatFlow : public testing::TestWithParam<std::tuple<int, double>> {
 
   private:
     ContourGraph make_graph() const {
-        const mrc::CurvatureField field(surface, 0.3, options);
-        const mrc::Scales scales = mrc::contour_scales(surface, field, 0.3, loop, options);
+        const mrc::CurvatureField field(surface, options);
+        const mrc::Scales scales = mrc::contour_scales(surface, field, loop, options);
         const mrc::Energy energy(surface, field, scales, options);
         return mrc::make_graph(surface, patch, band, flow(), energy, options, {}, steiner);
     }

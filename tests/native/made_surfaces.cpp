@@ -67,17 +67,25 @@ Mesh plate(int columns, int rows) {
     return mesh;
 }
 
-Mesh tube(int around, int rows, double radius, double step) {
+Mesh turned(std::span<const std::pair<double, double>> profile, int around) {
     Mesh mesh;
-    for (int v = 0; v < around * (rows + 1); ++v) {
-        const double angle = turn * (v % around) / around;
-        mesh.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), step * (v / around));
+    for (const auto& [radius, height] : profile) {
+        for (int i = 0; i < around; ++i) {
+            const double angle = turn * i / around;
+            mesh.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), height);
+        }
     }
-    for (int v = 0; v < around * rows; ++v) {
+    for (int v = 0; v < around * (static_cast<int>(profile.size()) - 1); ++v) {
         const int next = v / around * around + (v + 1) % around;
         mesh.faces.push_back({v, next, next + around, v + around});
     }
     return mesh;
+}
+
+Mesh tube(int around, int rows, double radius, double step) {
+    std::vector<std::pair<double, double>> profile;
+    for (int row = 0; row <= rows; ++row) profile.emplace_back(radius, step * row);
+    return turned(profile, around);
 }
 
 Mesh torus(int around, int across, double ring, double tube) {

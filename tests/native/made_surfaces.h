@@ -30,6 +30,8 @@ struct Mesh {
 Mesh plate(int columns, int rows);
 /// Quads around the z axis, open at both ends: vertex row * around + i, row by row upwards.
 Mesh tube(int around, int rows, double radius = 1.0, double step = 0.25);
+/// Quads around the z axis, from the (radius, height) of its rows, without caps.
+Mesh turned(std::span<const std::pair<double, double>> profile, int around);
 /// Quads around the z axis, rings of radius 3 and a tube of radius 1: vertex i * across + j, with j = 0 outermost.
 Mesh torus(int around, int across, double ring = 3.0, double tube = 1.0);
 /// Quads between two poles of triangles: the first and the last vertex.

@@ -20,8 +20,7 @@ class ContextOf : public testing::Test {
 
 TEST_F(ContextOf, a_first_search_has_the_scales_of_its_contour) {
     const SearchContext context(surface, contour, options, {}, std::nullopt);
-    EXPECT_EQ(context.h, mean_edge_length(surface, contour));
-    EXPECT_EQ(context.scales.h, context.h);
+    EXPECT_EQ(context.scales, contour_scales(surface, context.field, contour, options));
     EXPECT_EQ(context.scales.given, contour);
     EXPECT_EQ(context.energy.unit(), context.scales.K);
 }
@@ -29,7 +28,7 @@ TEST_F(ContextOf, a_first_search_has_the_scales_of_its_contour) {
 TEST_F(ContextOf, a_search_that_goes_on_has_the_scales_of_the_first) {
     const SearchContext first(surface, contour, options, {}, std::nullopt),
         on(surface, made::ring(16, 3), options, {}, first.scales);
-    EXPECT_EQ(on.h, first.h);
+    EXPECT_EQ(on.scales.h, first.scales.h);
     EXPECT_EQ(on.scales.given, contour);
     EXPECT_EQ(on.scales.L0, first.scales.L0);
     EXPECT_EQ(on.field.at(100).kappa_min, first.field.at(100).kappa_min);

@@ -26,7 +26,10 @@ DEFAULTS = {
     "max_turn": pi / 2,
     "iterations": 1,
 }
-SIZE_RINGS = 4  # the scales are taken within this many edges of the contour
+SIZE_RINGS = 4  # the scales are taken within this many edges of the contour,
+SIZE_REACH = 7  # and this many times h
+MOST_AREA = 3  # that a vertex counts with, in the square of its h
+ENOUGH = 0.4  # of the angles at a vertex: the polygons up to there decide about its h
 NOTHING = 1e-4  # curvatures below this / h count as 0, and principal curvatures that differ by less as umbilic
 TURN_TOLERANCE = 1e-6
 LEVEL = 1e-9  # vertices joined by an edge with a smaller increment are on one level
@@ -64,9 +67,28 @@ def line_in_ball(p, q, radius):
     return np.where(empty & ~point, 0.0, np.clip(first, 0, 1)), np.where(empty & ~point, 0.0, np.clip(last, 0, 1))
 
 
-def area_in_disk(corners, radius):
-    """The area of flat triangles (n, 3, 2) inside disks of the given radii (n) around the origin: signed sectors
-    outside the disk, triangles inside."""
+def triangle_content(p, q, weight):
+    """The signed integral of a weight, quadratic in the point, over the triangles 0, p, q: by the middles of their sides."""
+    return 0.5 * cross(p, q) * (weight(0.5 * p) + weight(0.5 * q) + weight(0.5 * (p + q))) / 3
+
+
+def content_in_disk(corners, reach, radius):
+    """The integral of 1 - d^2 / radius^2 over flat triangles (n, 3, 2) inside disks of the given reaches (n) around the
+    origin, where d is the distance from a point above it, the center of a ball that meets the plane in that disk. An infinite
+    radius gives the area. It is the sum of signed sectors outside the disk and triangles inside."""
+    if np.isinf(radius):
+        return area_of_parts(corners, reach, lambda p, q: 0.5 * cross(p, q), lambda p, q: sector(p, q, reach))
+
+    def weight(x):
+        return (reach**2 - (x * x).sum(axis=-1)) / radius**2
+
+    def part(p, q):
+        return sector(p, q, reach) * 0.5 * reach**2 / radius**2
+
+    return area_of_parts(corners, reach, lambda p, q: triangle_content(p, q, weight), part)
+
+
+def area_of_parts(corners, radius, triangle, sector):
     total = np.zeros(len(corners))
     for i in range(3):
         p, q = corners[:, i], corners[:, (i + 1) % 3]
@@ -74,15 +96,15 @@ def area_in_disk(corners, radius):
         enter, leave = p + start[:, None] * (q - p), p + end[:, None] * (q - p)
         inside = end > start
         # No sector at an end inside the disk: at the origin, rounding would give it an arbitrary angle.
-        before = np.where(start > 0, sector(p, enter, radius), 0.0)
-        after = np.where(end < 1, sector(leave, q, radius), 0.0)
-        within = before + 0.5 * cross(enter, leave) + after
-        total += np.where(inside, within, sector(p, q, radius))
+        before = np.where(start > 0, sector(p, enter), 0.0)
+        after = np.where(end < 1, sector(leave, q), 0.0)
+        within = before + triangle(enter, leave) + after
+        total += np.where(inside, within, sector(p, q))
     return np.abs(total)
 
 
-def area_in_ball(corners, radius):
-    """The area of triangles in space (n, 3, 3) inside a ball around the origin."""
+def area_in_ball(corners, radius, soft):
+    """The area of triangles in space (n, 3, 3) inside a ball around the origin; soft: weighted with 1 - d^2 / radius^2."""
     side, other = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     normal = np.cross(side, other)
     size = np.linalg.norm(normal, axis=1)
@@ -95,7 +117,7 @@ def area_in_ball(corners, radius):
     flat = np.stack([np.einsum("nij,nj->ni", corners, x_axis), np.einsum("nij,nj->ni", corners, y_axis)], axis=-1)
     reach = np.sqrt(np.maximum(radius**2 - height**2, 0.0))
     met = reach > 0
-    result[np.flatnonzero(proper)[met]] = area_in_disk(flat[met], reach[met])
+    result[np.flatnonzero(proper)[met]] = content_in_disk(flat[met], reach[met], radius if soft else inf)
     return result
 
 
@@ -117,15 +139,17 @@ class Geometry:
         """Vertex areas: each polygon's area divided equally among its vertices. Vertex normals: polygon normals
         weighted by corner angle."""
         self.area, self.normal = np.zeros(len(self.x)), np.zeros((len(self.x), 3))
+        self.corners, self._scale = defaultdict(list), {}
         for face in self.mesh.faces:
             p = self.x[list(face)]
             ahead, behind = np.roll(p, -1, axis=0) - p, np.roll(p, 1, axis=0) - p
             vector_area = 0.5 * np.cross(p, np.roll(p, -1, axis=0)).sum(axis=0)
             size = np.linalg.norm(vector_area)
-            if size == 0:
-                continue
             angles = np.arctan2(np.linalg.norm(np.cross(ahead, behind), axis=1), (ahead * behind).sum(axis=1))
             for v, angle in zip(face, angles, strict=True):
+                self.corners[v].append((face, angle))
+                if size == 0:
+                    continue
                 self.area[v] += size / len(face)
                 self.normal[v] += angle * vector_area / size
         lengths = np.linalg.norm(self.normal, axis=1, keepdims=True)
@@ -178,17 +202,61 @@ class Geometry:
             seen = seen | front
         return seen
 
-    def mean_edge(self, vertices):
-        """Mean length of the real edges between the given vertices."""
-        lengths = [d for v in vertices for w, d in self.neighbors[v].items() if v < w and w in vertices]
-        return sum(lengths) / len(lengths)
+    def extent(self, face):
+        """How wide a polygon is across, from the moments of its corners, the roots of a polynomial of which their sum and
+        product are known: their product is, by the area, that of a triangle or of a rectangle."""
+        p = self.x[list(face)]
+        trace = ((p - p.mean(axis=0)) ** 2).sum() / len(p)
+        area = np.linalg.norm(0.5 * np.cross(p, np.roll(p, -1, axis=0)).sum(axis=0))
+        factor, product = (6, 4 * area**2 / 27) if len(face) == 3 else (4, area**2 / 16)
+        moments = np.roots([1.0, -trace, min(product, trace**2 / 4)]).real
+        size = np.sqrt((moments**2).sum())
+        return np.sqrt(factor * moments.prod() / size) if size > 0 else 0.0
 
-    def disk_tensor(self, v, radius):
+    def own_scale(self, v):
+        """The extent up to which the polygons at a vertex, from narrow to wide, have 40 % of its angle."""
+        found = sorted((self.extent(face), angle) for face, angle in self.corners[v])
+        found = [(extent, angle) for extent, angle in found if extent > 0]
+        whole, sum_ = sum(angle for _, angle in found), 0.0
+        for extent, angle in found:
+            sum_ += angle
+            if sum_ >= ENOUGH * whole * (1 - 1e-12):
+                return extent
+        lengths = [d for d in self.neighbors[v].values() if d > 0]
+        return sum(lengths) / len(lengths) if lengths else 0.0
+
+    def scale(self, v, passes=2):
+        """The local scale h: what the polygons say, averaged twice over neighbors."""
+        if (v, passes) not in self._scale:
+            self._scale[v, passes] = self.own_scale(v) if passes == 0 else self._mean_scale(v, passes - 1)
+        return self._scale[v, passes]
+
+    def _mean_scale(self, v, passes):
+        own = self.scale(v, passes)
+        weights = {w: min(1.0, own / d) ** 2 if own * d > 0 else 1.0 for w, d in self.neighbors[v].items()}
+        parts = [(1.0, own)] + [(weight, self.scale(w, passes)) for w, weight in weights.items()]
+        parts = [(weight, h) for weight, h in parts if h > 0]
+        return sum(weight * h for weight, h in parts) / sum(weight for weight, _ in parts) if parts else 0.0
+
+    def near(self, contour, distances, h):
+        """Where the scales of a contour are taken."""
+        return {v for v in self.rings(contour, SIZE_RINGS) if distances[v] <= SIZE_REACH * h}
+
+    def counted_area(self, v):
+        return min(self.area[v], MOST_AREA * self.scale(v) ** 2)
+
+    def disk_tensor(self, v, radius, soft):
         """Eq. 3.4 at a vertex. The disk B is the part of the triangulated surface inside the ball that is connected to
-        the vertex."""
+        the vertex; soft: with the weight 1 - d^2 / radius^2, where d is the distance from the vertex."""
         center = self.x[v]
         start, end = line_in_ball(*(self.x[self.edge_ends] - center).transpose(1, 0, 2), radius)
-        fractions = dict(zip(self.at_edge, (end - start).tolist(), strict=True))
+        inside = end - start
+        if soft:
+            p, q = self.x[self.edge_ends].transpose(1, 0, 2) - center
+            gauss = [0.5 * (start + end) + sign * (end - start) / np.sqrt(12) for sign in (-1, 1)]
+            at = [p + t[:, None] * (q - p) for t in gauss]
+            inside = inside * (1 - 0.5 * sum((x * x).sum(axis=1) for x in at) / radius**2)
+        fractions = dict(zip(self.at_edge, inside.tolist(), strict=True))
         seen, stack, met = set(self.at_vertex[v]), list(self.at_vertex[v]), {}
         while stack:
             a, b, c = self.triangles[stack.pop()]
@@ -207,7 +275,7 @@ class Geometry:
             if fraction > 0 and d.any():
                 tensor += self.bend[edge] * fraction * np.outer(d, d) / np.linalg.norm(d)
         corners = self.x[np.array([self.triangles[i] for i in sorted(seen)])] - center if seen else np.zeros((0, 3, 3))
-        area = area_in_ball(corners, radius).sum()
+        area = area_in_ball(corners, radius, soft).sum()
         return tensor / area if area > 0 else tensor * 0.0
 
 
@@ -220,26 +288,21 @@ class Curvature:
 
 
 class Curvatures:
-    """Principal curvatures and directions (thesis 3.4) at a given h, computed on demand."""
+    """Principal curvatures and directions (thesis 3.4), computed on demand.
 
-    def __init__(self, geometry, h, options):
-        self.geometry, self.h = geometry, h
-        self.radius, self.sigma = options["curvature_radius"] * h, options["curvature_smoothing"] * h
-        self._tensor, self._found = {}, {}
+    Smoothing widens the disk, in which nearer parts then count for more: it has the second moment of the disk convolved with
+    the Gaussian."""
+
+    def __init__(self, geometry, options):
+        self.geometry, self.soft = geometry, options["curvature_smoothing"] > 0
+        self.radius = options["curvature_radius"]
+        if self.soft:
+            variance = self.radius**2 / 4 + options["curvature_smoothing"] ** 2  # along each axis
+            self.radius = np.sqrt(6 * variance)
+        self._found = {}
 
     def tensor(self, v):
-        if v not in self._tensor:
-            self._tensor[v] = self.geometry.disk_tensor(v, self.radius)
-        return self._tensor[v]
-
-    def smoothed(self, v):
-        """The tensor smoothed with Gaussian weights of the distance along real edges, cut off at 3 sigma."""
-        if self.sigma == 0:
-            return self.tensor(v)
-        # On regular grids, vertices lie at exactly 3 sigma: rounding must not decide whether they count.
-        near = self.geometry.distances([v], 3 * self.sigma * (1 + 1e-9))
-        weights = {w: np.exp(-d * d / (2 * self.sigma**2)) for w, d in near.items()}
-        return sum(weight * self.tensor(w) for w, weight in weights.items()) / sum(weights.values())
+        return self.geometry.disk_tensor(v, self.radius * self.geometry.scale(v), self.soft)
 
     def __getitem__(self, v):
         if v not in self._found:
@@ -247,7 +310,7 @@ class Curvatures:
             x_axis = np.cross(normal, np.eye(3)[np.argmin(np.abs(normal))])
             x_axis /= np.linalg.norm(x_axis)
             basis = np.stack([x_axis, np.cross(normal, x_axis)])
-            values, vectors = np.linalg.eigh(basis @ self.smoothed(v) @ basis.T)
+            values, vectors = np.linalg.eigh(basis @ self.tensor(v) @ basis.T)
             directions = vectors.T @ basis
             # The eigenvector of beta e e^T is along the crease, but its curvature is the one across it: swap them.
             self._found[v] = Curvature(values[0], values[1], directions[1], directions[0])
@@ -262,19 +325,20 @@ class Energy:
         self.geometry = Geometry(mesh)
         self.ridge = self.options["feature"] == "ridge"
         contour = [int(v) for v in contour]
-        near = self.geometry.rings(contour, SIZE_RINGS)
-        self.h = self.geometry.mean_edge(near)
-        self.length = sum(self.geometry.neighbors[a][b] for a, b in edges_of(contour))
-        self.curvatures = Curvatures(self.geometry, self.h, self.options)
-        area = sum(self.geometry.area[v] for v in near)
-        mean = sum(self.geometry.area[v] * abs(self.feature_curvature(v)) for v in near) / area
+        scale, sizes = self.geometry.scale, [(a, b, self.geometry.neighbors[a][b]) for a, b in edges_of(contour)]
+        self.length = sum(size for _, _, size in sizes)
+        self.h = sum(size * (scale(a) + scale(b)) / 2 for a, b, size in sizes) / self.length
+        near = self.geometry.near(contour, self.geometry.distances(contour), self.h)
+        self.curvatures = Curvatures(self.geometry, self.options)
+        area = sum(self.geometry.counted_area(v) for v in near)
+        mean = sum(self.geometry.counted_area(v) * abs(self.feature_curvature(v)) for v in near) / area
         self.scale = max(mean, 0.01 / self.length)
         self.kappa_0 = self.options["kappa0_factor"] * self.scale
 
     def feature_curvature(self, v):
         """kappa_min, or -kappa_max for ridges: negative where there is a feature. Tiny values count as 0."""
         kappa = -self.curvatures[v].kappa_max if self.ridge else self.curvatures[v].kappa_min
-        return kappa if abs(kappa) >= NOTHING / self.h else 0.0
+        return kappa if abs(kappa) >= NOTHING / self.geometry.scale(v) else 0.0
 
     def projected(self, a, b, v):
         """The edge ab projected onto the tangent plane of v."""
@@ -300,7 +364,7 @@ class Energy:
         one, two = self.projected(a, b, b), self.projected(b, c, b)
         here = self.curvatures[b]
         direction = here.direction_min if self.ridge else here.direction_max
-        if here.kappa_max - here.kappa_min < NOTHING / self.h:
+        if here.kappa_max - here.kappa_min < NOTHING / self.geometry.scale(b):
             direction = one + two
         along = abs(lengths[0] * self.cosine(one, direction) + lengths[1] * self.cosine(two, direction))
         g = 0.5 * sum(lengths)

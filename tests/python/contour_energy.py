@@ -9,7 +9,7 @@ from itertools import pairwise
 from math import acos, ceil, exp, inf, pi, sin
 
 import numpy as np
-from brute_force import DEFAULTS, NOTHING, SIZE_RINGS, TURN_TOLERANCE, Curvatures, Geometry, edges_of
+from brute_force import DEFAULTS, NOTHING, TURN_TOLERANCE, Curvatures, Geometry, edges_of
 
 EXTRA = {
     "refinement": 0,
@@ -154,17 +154,19 @@ class PointEnergy:
         self.given, self.closed = list(given), closed
         self.along_edges = all(edge_of(p, q) is not None for p, q in self.segments(self.given))
         self.known, self.halves, self.enclosed = {}, {}, None
-        self._scales()
         self._fields(attractors)
+        self._scales()
 
     def _scales(self):
         geometry = self.geometry
-        near = geometry.rings({v for p in self.given for v in p[:2]}, SIZE_RINGS)
-        self.h = geometry.mean_edge(near)
-        self.L0 = sum(self.size(p, q) for p, q in self.segments(self.given))
-        self.curvatures = Curvatures(geometry, self.h, self.options)
-        area = sum(geometry.area[v] for v in near)
-        mean = sum(geometry.area[v] * abs(self._unclamped(v)) for v in near) / area
+        sizes = [(p, q, self.size(p, q)) for p, q in self.segments(self.given)]
+        self.L0 = sum(size for _, _, size in sizes)
+        local = [size * (self.linear(p, geometry.scale) + self.linear(q, geometry.scale)) / 2 for p, q, size in sizes]
+        self.h = sum(local) / self.L0
+        near = geometry.near({v for p in self.given for v in p[:2]}, self.from_given, self.h)
+        self.curvatures = Curvatures(geometry, self.options)
+        area = sum(geometry.counted_area(v) for v in near)
+        mean = sum(geometry.counted_area(v) * abs(self._unclamped(v)) for v in near) / area
         self.K = max(mean, 0.01 / self.L0)
         self.kappa_0 = self.options["kappa0_factor"] * self.K
         self.n0 = len(self.segments(with_steiner_points(self.given, self.closed, self.options["refinement"])))
@@ -205,7 +207,7 @@ class PointEnergy:
     def _unclamped(self, v):
         """kappa_min, or -kappa_max for ridges: negative where there is a feature. Tiny values count as 0."""
         kappa = -self.curvatures[v].kappa_max if self.ridge else self.curvatures[v].kappa_min
-        return kappa if abs(kappa) >= NOTHING / self.h else 0.0
+        return kappa if abs(kappa) >= NOTHING / self.geometry.scale(v) else 0.0
 
     def linear(self, p, at_vertex):
         t = p[2] / UNITS
@@ -230,7 +232,7 @@ class PointEnergy:
 
     def _projector(self, v):
         here = self.curvatures[v]
-        if here.kappa_max - here.kappa_min < NOTHING / self.h:
+        if here.kappa_max - here.kappa_min < NOTHING / self.geometry.scale(v):
             normal = self.geometry.normal[v]
             return (np.eye(3) - np.outer(normal, normal)) / 2
         direction = here.direction_min if self.ridge else here.direction_max

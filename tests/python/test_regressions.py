@@ -231,7 +231,7 @@ def test_curvature_with_vertices_exactly_on_the_disk_boundary():
 
 def test_lower_bound_is_not_above_a_returned_given_contour():
     """What is gained along mesh edges may be lost when it is measured with Steiner points."""
-    mesh, contour = torus(np.random.default_rng(353))
+    mesh, contour = torus(np.random.default_rng(25))
     options = mrc.Options(width=3, refinement=2, regular_iterations=1, iterations=0)
     result = mrc.optimize(surface_of(mesh), contour, options=options)
     assert result.reason_code == "none_refined"

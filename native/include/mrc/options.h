@@ -18,8 +18,7 @@ enum class Ends { edges, vertices, border };
 enum class LengthMeasure { arc, edges };
 enum class Denominator { length, arcs };
 
-/// All settings of the method; each stage reads those it needs. Sections are those of Clements 2006. h, K and L0 are those of
-/// `Scales`.
+/// All settings of the method; each stage reads those it needs. Sections are those of Clements 2006. K and L0 are those of `Scales`.
 struct Options {
     // band, 4.2.1
     /// Rings of faces on each side, at least 1. None: the band grows until topology stops it, and iterations with refinement then
@@ -29,8 +28,10 @@ struct Options {
     /// iteration starts from. In average radii of the contour's connected component; none: no limit.
     std::optional<double> band_distance;
     // curvature, 3.4
-    double curvature_radius = 1.6;     ///< of the disk B, in h, above 0
-    double curvature_smoothing = 1.0;  ///< sigma of the tensor's Gaussian, in h; 0: no smoothing
+    double curvature_radius = 1.6;  ///< of the disk B, in the local scale h of the surface (`VertexCurvature`), above 0
+    /// Sigma in h. The disk gets the second moment that it would have after smoothing with a Gaussian of this sigma, and parts at
+    /// the distance d from its center count with 1 - d^2 / radius^2. 0: the plain disk of eq. 3.4.
+    double curvature_smoothing = 1.0;
     // flow, 4.2.3
     FlowKind flow = FlowKind::harmonic;  ///< gave the best results; needs no starting line
     // energy, 3.4
