@@ -74,12 +74,12 @@ def flags(elements, name):
     ("sample", "settings", "stay"),
     [
         ("hand", {}, {"index", "middle", "ring", "little", "thumb"}),
-        ("hand", FAR, {"middle"}),
-        ("hand", FAR | {"reach": 1.0}, set()),
+        ("hand", FAR, {"index", "middle", "little"}),
+        ("hand", FAR | {"reach": 1.0}, {"index", "little"}),
         ("head", {}, {"ear", "neck"}),
         ("head", FAR, set()),
-        ("torso", {}, {"waist"}),
-        ("torso", FAR, set()),
+        ("torso", {}, set()),
+        ("torso", FAR, {"shoulder"}),
     ],
 )
 def test_the_selected_loops_give_what_the_page_says(sample, settings, stay):
