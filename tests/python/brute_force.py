@@ -68,14 +68,14 @@ def line_in_ball(p, q, radius):
 
 
 def triangle_content(p, q, weight):
-    """The signed integral of a weight, quadratic in the point, over the triangles 0, p, q: by the middles of their sides."""
+    """The signed integral of a weight, quadratic in the point, over the triangles 0, p, q: by their sides' middles."""
     return 0.5 * cross(p, q) * (weight(0.5 * p) + weight(0.5 * q) + weight(0.5 * (p + q))) / 3
 
 
 def content_in_disk(corners, reach, radius):
     """The integral of 1 - d^2 / radius^2 over flat triangles (n, 3, 2) inside disks of the given reaches (n) around the
-    origin, where d is the distance from a point above it, the center of a ball that meets the plane in that disk. An infinite
-    radius gives the area. It is the sum of signed sectors outside the disk and triangles inside."""
+    origin, where d is the distance from a point above it, the center of a ball that meets the plane in that disk. An
+    infinite radius gives the area. It is the sum of signed sectors outside the disk and triangles inside."""
     if np.isinf(radius):
         return area_of_parts(corners, reach, lambda p, q: 0.5 * cross(p, q), lambda p, q: sector(p, q, reach))
 
@@ -104,7 +104,8 @@ def area_of_parts(corners, radius, triangle, sector):
 
 
 def area_in_ball(corners, radius, soft):
-    """The area of triangles in space (n, 3, 3) inside a ball around the origin; soft: weighted with 1 - d^2 / radius^2."""
+    """The area of triangles in space (n, 3, 3) inside a ball around the origin; soft: each part times
+    1 - d^2 / radius^2."""
     side, other = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     normal = np.cross(side, other)
     size = np.linalg.norm(normal, axis=1)
@@ -203,8 +204,8 @@ class Geometry:
         return seen
 
     def extent(self, face):
-        """How wide a polygon is across, from the moments of its corners, the roots of a polynomial of which their sum and
-        product are known: their product is, by the area, that of a triangle or of a rectangle."""
+        """How wide a polygon is across, from the moments of its corners, the roots of a polynomial of which their sum
+        and product are known: their product is, by the area, that of a triangle or of a rectangle."""
         p = self.x[list(face)]
         trace = ((p - p.mean(axis=0)) ** 2).sum() / len(p)
         area = np.linalg.norm(0.5 * np.cross(p, np.roll(p, -1, axis=0)).sum(axis=0))
@@ -290,8 +291,8 @@ class Curvature:
 class Curvatures:
     """Principal curvatures and directions (thesis 3.4), computed on demand.
 
-    Smoothing widens the disk, in which nearer parts then count for more: it has the second moment of the disk convolved with
-    the Gaussian."""
+    Smoothing widens the disk, in which nearer parts then count for more: it has the second moment of the disk convolved
+    with the Gaussian."""
 
     def __init__(self, geometry, options):
         self.geometry, self.soft = geometry, options["curvature_smoothing"] > 0

@@ -61,12 +61,13 @@ def test_matches_the_independent_implementation(body, radius, smoothing, rng):
 
 
 def shrinking_disk(mesh, radius, soft=False):
-    """Options that average over a disk of the given radius, plain or soft. Convergence needs a disk that shrinks more slowly than
-    the edges: a disk of 1.6 h keeps the error of its few edges, however fine the mesh."""
+    """Options that average over a disk of the given radius, plain or soft. Convergence needs a disk that shrinks more
+    slowly than the edges: a disk of 1.6 h keeps the error of its few edges, however fine the mesh."""
     geometry = Geometry(mesh)
     h = np.mean([geometry.scale(v) for v in range(0, len(mesh.positions), 1 + len(mesh.positions) // 60)])
-    if soft:  # whose radius squared is 1.5 r^2 + 6 sigma^2
-        return curvature(mesh, curvature_radius=radius / h / np.sqrt(7.5), curvature_smoothing=radius / h / np.sqrt(7.5))
+    if soft:  # its radius squared is 1.5 r^2 + 6 sigma^2
+        part = radius / h / np.sqrt(7.5)
+        return curvature(mesh, curvature_radius=part, curvature_smoothing=part)
     return curvature(mesh, curvature_radius=radius / h, curvature_smoothing=0.0)
 
 

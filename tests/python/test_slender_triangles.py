@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Neither curvature nor contour depends on how a straight part is cut up, as in CAD and STL meshes, whose triangles reach
-far along it."""
+"""Neither curvature nor contour depends on how a straight part is cut up, as in CAD and STL meshes, whose triangles
+reach far along it."""
 
 import meshes
 import mrcontour as mrc
