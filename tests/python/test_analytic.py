@@ -162,8 +162,8 @@ def test_sharp_valley_is_found_under_any_triangulation(seed):
 @pytest.mark.parametrize("k", [0, 1, 2])
 @pytest.mark.parametrize("seed", range(7))
 def test_ring_around_a_three_sided_prism_is_legal(seed, k):
-    """It turns by 120 degrees at each corner, but not in the tangent plane there. Curvature is measured so near that the
-    other sides of the prism do not count."""
+    """It turns by 120 degrees at each corner, but not in the tangent plane there. Curvature is measured so near that
+    the other sides of the prism do not count."""
     rng, rows = np.random.default_rng(seed), 9
     waist, given = rng.permutation([3, 4, 5])[:2]
     mesh = meshes.tube(1 + rng.uniform(0.3, 0.6) * abs(np.arange(rows) - waist), 3, step=rng.uniform(0.7, 1.2))
