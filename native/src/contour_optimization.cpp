@@ -146,7 +146,7 @@ void ContourOptimization::search(Partition* partition, int number, const Beat& b
     result_.history.push_back(result_.objective);
     explain(best);
     moved_ = below(result_.objective, before);
-    moving_ = moved_ && !featureless();
+    moving_ = moved_;  // also from where nothing is concave: it may be closer to where something is
 }
 
 /// Evaluates the curvature of all vertices of the band at once.

@@ -285,3 +285,18 @@ def test_triangle_arrays_need_no_offsets(realistic):
     triangles = replace(mesh, faces=tuple(map(tuple, mesh.triangles.tolist())))
     one = mrc.optimize(mrc.Surface(mesh.positions, None, mesh.triangles), contour, options=HARMONIC)
     assert same_answer(optimize(triangles, contour), one)
+
+
+def test_iterations_go_on_where_the_first_band_has_nothing_concave():
+    """The second reaches the groove, of which the first sees nothing; a band without any is left at the given contour."""
+    rows, around = 121, 64
+    height = np.linspace(-2, 2, rows)
+    mesh = meshes.tube(1 - 0.3 * np.exp(-60 * (height - 0.2) ** 2), around, step=4 / (rows - 1))
+    groove = int(np.argmin(abs(height - 0.2)))
+    given = (groove - 6) * around + np.arange(around)
+    once, twice = (
+        mrc.optimize(surface_of(mesh), given, options=mrc.Options.recommended(iterations=count)) for count in (1, 2)
+    )
+    assert (once.status, once.reason_code) == ("unchanged", "not_salient")
+    assert twice.status == "improved"
+    assert set(twice.vertices // around) == {groove}
