@@ -9,6 +9,7 @@ import numpy as np
 
 from .edge_paths import common_edges, contour_edges
 from .parameters import native_options
+from .refusals import Refusal
 
 _BESIDE = tuple(product((-1, 0, 1), repeat=3))  # a cell and those around it
 _NO_FACES = np.empty(0, dtype=np.int32)
@@ -18,7 +19,7 @@ def _ids(*shape):
     return field(default_factory=lambda: np.empty(shape, dtype=np.int32))
 
 
-class OutsideBand(ValueError):
+class OutsideBand(Refusal):
     """Required vertices that lie where nothing is searched; the message is meant for the user."""
 
     def __init__(self, vertices):
@@ -26,7 +27,8 @@ class OutsideBand(ValueError):
         noun = "vertex lies" if len(vertices) == 1 else "vertices lie"
         super().__init__(
             f"{len(vertices)} required {noun} outside the band that is searched: "
-            "widen it, or take them out of the vertex group"
+            "widen it, or take them out of the vertex group",
+            vertices,
         )
 
 

@@ -77,7 +77,7 @@ class Plan:
 class NetworkSearch:
     """The network of one mesh, and what becomes of it."""
 
-    problem: str = ""  # why there is no network, or none that can be searched
+    error: ValueError | None = None  # why there is no network, or none that can be searched
     network: Network | None = None
     arrays: object = None  # of the mesh, where something is movable
     surface: object = None  # the native one made from them
@@ -86,13 +86,13 @@ class NetworkSearch:
 
 def optimize_networks(searches, settings, progress=None):
     """Gives each search without a problem its plan, or the problem that keeps it from one."""
-    searches = [search for search in searches if not search.problem]
+    searches = [search for search in searches if search.error is None]
     for i, search in enumerate(searches):
         own_progress = fraction_of(progress, i, len(searches))
         try:
             search.plan = optimize(search.surface, search.network, own_progress, **settings)
         except ValueError as error:
-            search.problem = messages.problem(error)
+            search.error = error
 
 
 def optimize(surface, network, progress=None, **settings):

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from . import messages, refusals
 from .edge_paths import contour_edges
 
 
@@ -19,11 +20,16 @@ class Outcome:
     closing: bool = False  # whether it is an open chain that is to be closed first
     result: object = None
     problem: str = ""
+    culprits: tuple = ()  # the elements at which the problem lies, (kind, id), to be shown to the user
     leaving: tuple = ()  # for each side that is to be separated, whether it is the left one
 
     @classmethod
     def of(cls, place, vertices, closed, **found):
         return cls(place, contour_edges(vertices, closed), vertices, closed, **found)
+
+    def refuse(self, error):
+        """Give it the problem that an error states, and what the error names."""
+        self.problem, self.culprits = messages.problem(error), refusals.culprits(error)
 
 
 def network_outcomes(place, plan, why_lost):

@@ -75,7 +75,7 @@ class ContourSearch:
     def fail(self, error):
         """Why nothing can be done with any of the contours that could be handed to the search."""
         for outcome in self.sound():
-            outcome.problem = messages.problem(error)
+            outcome.refuse(error)
 
 
 def optimize_contours(searches, settings, progress=None):
@@ -104,9 +104,12 @@ def complete(search, progress=None):
 
 def find_problems(search, outcomes):
     """Gives each outcome that is no contour the reason why; the others may stay without a result."""
+    mrc = native.module()
     barriers = () if search.constraints is None else search.constraints.barriers_beside(native.contours(outcomes))
     for outcome in outcomes:
-        outcome.problem = problem_on(search.surface, outcome.vertices, outcome.closed, barriers)
+        error = mrc.check_contour(search.surface, outcome.vertices, closed=outcome.closed, barriers=barriers)
+        if error is not None:
+            outcome.refuse(error)
 
 
 def _close(surface, outcomes, progress):
@@ -118,7 +121,7 @@ def _close(surface, outcomes, progress):
         try:
             loop = native.module().close_contour(surface, outcome.vertices, progress=own_progress)
         except ValueError as error:
-            outcome.problem = messages.problem(error)
+            outcome.refuse(error)
             continue
         if taken.isdisjoint(loop.tolist()):
             outcome.vertices, outcome.closed = loop, True
@@ -158,6 +161,6 @@ def _optimize_together(search, outcomes, settings, progress):
     )
     for outcome, result in zip(outcomes, found):
         if isinstance(result, ValueError):
-            outcome.problem = messages.problem(result)
+            outcome.refuse(result)
         else:
             outcome.result = result

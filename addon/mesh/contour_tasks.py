@@ -8,6 +8,7 @@ import numpy as np
 
 from ..core import edge_paths, messages
 from ..core.outcomes import Outcome
+from ..core.refusals import Refusal
 from ..core.search import ContourSearch
 from . import constraint_layers
 from .arrays import is_inside_out, is_unevenly_scaled, read_selection, synchronize, with_mirror_images
@@ -56,7 +57,9 @@ def read_task(obj, face_mode, close=False):
         outcomes.append(Outcome(obj.name, edges, problem=messages.NO_BORDER))
     for outcome in outcomes:
         outcome.closing = close and not face_mode and not outcome.closed
-        outcome.problem = outcome.problem or _problem(outcome, selection.loose)
+        refusal = None if outcome.problem else _refusal(outcome, selection.loose)
+        if refusal:
+            outcome.refuse(refusal)
     mirrored = len(edges) > len(selection.edges)
     return ContourTask(outcomes, face_mode, obj=obj, mirrored=mirrored, asymmetric=mirror and images is None)
 
@@ -84,18 +87,23 @@ def _outcomes(place, edges, face_mode):
     given = [(loop, True) for loop in pieces.loops] + [(chain, False) for chain in pieces.chains]
     if face_mode:
         given = [(edge_paths.along(vertices, edges, closed), closed) for vertices, closed in given]
-    branching = [
-        Outcome(place, piece, problem=messages.branching(edge_paths.branch_vertices(piece)))
-        for piece in pieces.branching
+    return [Outcome.of(place, vertices, closed) for vertices, closed in given] + [
+        _branching(place, piece) for piece in pieces.branching
     ]
-    return [Outcome.of(place, vertices, closed) for vertices, closed in given] + branching
 
 
-def _problem(outcome, loose_edges):
-    """Return why a contour cannot be searched at all; empty if it can."""
+def _branching(place, edges):
+    """Return the outcome of a piece that is no contour, since edges branch off it."""
+    outcome, vertices = Outcome(place, edges), edge_paths.branch_vertices(edges)
+    outcome.refuse(Refusal(messages.branching(vertices), vertices))
+    return outcome
+
+
+def _refusal(outcome, loose_edges):
+    """Return why a contour cannot be searched at all; None if it can."""
     loose = edge_paths.common_edges(outcome.edges, loose_edges)
     if len(loose):
-        return messages.loose(loose, outcome.closed)
+        return Refusal(messages.loose(loose, outcome.closed), loose)
     if len(outcome.edges) == 1 and not outcome.closing:
-        return messages.single_edge(outcome.vertices)
-    return ""
+        return Refusal(messages.single_edge(outcome.vertices), outcome.vertices)
+    return None

@@ -7,7 +7,7 @@ import bmesh
 import bpy
 
 from ..core import messages
-from . import custom_normals, cutting, edge_marks, separation
+from . import culprits, custom_normals, cutting, edge_marks, separation
 from .arrays import find_edges
 
 SPLITTING = ("RIP", "SEPARATE")
@@ -80,26 +80,13 @@ def write(context, tasks, options):
     Return whether anything was written or selected. A contour around which nothing could be searched does not count:
     it is selected already.
     """
-    outside = {task.obj: task.outside for task in tasks if len(task.outside)}
+    outside = {task.obj: [("vertex", vertex) for vertex in task.outside] for task in tasks if len(task.outside)}
     possible = any(_is_possible(outcome, task, options) for task in tasks for outcome in task.done())
     if possible:
         _write(context, [task for task in tasks if task.done()], options)
     if outside:
-        select_vertices(outside)
+        culprits.select(outside)
     return possible or bool(outside)
-
-
-def select_vertices(vertices_of):
-    """Select only these vertices of objects, in vertex mode; other objects keep their selection."""
-    bpy.ops.mesh.select_mode(type="VERT")
-    for obj, vertices in vertices_of.items():
-        bm = bmesh.from_edit_mesh(obj.data)
-        bm.verts.ensure_lookup_table()
-        shown = [bm.verts[vertex] for vertex in vertices if not bm.verts[vertex].hide]
-        edge_marks.select_each([bm.verts], False)
-        edge_marks.select_each([shown], True)
-        edge_marks.flush_selection(bm)
-        bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)
 
 
 def _is_possible(outcome, task, options):

@@ -11,7 +11,7 @@ from ..core import messages, native, preview_state, search
 from ..core.native_constraints import OutsideBand
 from ..core.preview import Preview
 from ..core.preview_state import CANCEL, CONFIRM, IGNORE, PASS, PIN, State
-from ..mesh import contour_tasks, outputs
+from ..mesh import contour_tasks, culprits
 from . import panels
 from .operators import (
     ContourConstraints,
@@ -150,7 +150,7 @@ class MESH_OT_adjust_contour(ContourSettings, ContourConstraints, ContourOutput,
                 pins_outside = preview.pins_outside(self._state)
                 self._problem = messages.unsearchable(error, pins_outside)
                 if isinstance(error, OutsideBand) and not pins_outside:
-                    self._outside[obj] = error.vertices
+                    self._outside[obj] = error.elements
 
     def _step(self, context, state):
         """Goes on with other settings or pins; one command changes one thing, and the output needs no search.
@@ -212,7 +212,7 @@ class MESH_OT_adjust_contour(ContourSettings, ContourConstraints, ContourOutput,
         tasks, outside = self._tasks, self._outside
         self._tasks, self._previews, self._outside = [], [], {}  # Blender keeps past operators: not their meshes too
         if outside:
-            outputs.select_vertices(outside)
+            culprits.select(outside)
         if self._problem:
             return self.conclude(context, "WARNING", self._problem, changed=bool(outside))
         return self.apply(context, tasks)

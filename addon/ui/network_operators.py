@@ -73,12 +73,14 @@ class NetworkOperator(NetworkSettings, CutSettings, InEditMode, SearchOperator):
             if task.network is not None and task.network.movable:
                 task.arrays, task.surface = arrays_and_surface_of(obj, beside=objects)
         except ValueError as error:
-            task.problem = messages.problem(error)
+            task.error = error
         return task
 
     def _outcomes(self, task):
-        if task.problem:
-            return [Outcome(task.obj.name, None, problem=task.problem)]
+        if task.error is not None:
+            outcome = Outcome(task.obj.name, None)
+            outcome.refuse(task.error)
+            return [outcome]
         return self._chain_outcomes(task)
 
 

@@ -9,7 +9,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 from ..core import messages, search
 from ..core.parameters import CONSTRAINTS, SETTINGS
 from ..mesh import contour_tasks, outputs
-from . import panels
+from . import panels, show_place
 from .background_search import SearchOperator
 
 
@@ -135,6 +135,7 @@ class InEditMode:
 
     if TYPE_CHECKING:  # defined by every operator
         report: Any
+        options: Any
         poll_message_set: Any
 
     @classmethod
@@ -149,9 +150,14 @@ class InEditMode:
         return False
 
     def conclude(self, context, level, message, outcomes=(), changed=False):
-        """Show the outcome in the panel and the status bar. Return the operator's result."""
+        """Show the outcome in the panel and the status bar, and where nothing was done the culprits in the mesh.
+
+        Return the operator's result. If a repeated operator cancels, Blender restores what it did the last time.
+        """
         panels.show_result(context, message, outcomes)
         self.report({level}, message)
+        if not changed and not self.options.is_repeat:
+            show_place.show(context, outcomes)
         return {"FINISHED"} if changed else {"CANCELLED"}
 
 

@@ -15,6 +15,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 search = importlib.import_module("addon.core.search")
 native_constraints = importlib.import_module("addon.core.native_constraints")
 outcomes_module = importlib.import_module("addon.core.outcomes")
+refusals = importlib.import_module("addon.core.refusals")
 
 COLUMNS = 12
 SETTINGS = {"width": 3, "reach": 0.0, "min_salience": 0.0}
@@ -185,3 +186,25 @@ def test_the_number_of_closed_flags_is_checked_with_and_without_constraints():
     for layers in (None, constraints(mesh, pulls=np.ones(len(mesh.positions)), strength=1.0)):
         with pytest.raises(ValueError, match="closed has 1 entries for 2 contours"):
             search.optimize_all_on(surface_of(mesh), [ring(10), ring(26)], closed=[True], constraints=layers)
+
+
+def test_a_contour_in_error_says_where():
+    """Errors carry the elements that they name from the search to whoever shows them."""
+    task = started(tube(), ring(10), BAD)
+    run(task)
+    sound, bad = task.outcomes
+    assert sound.culprits == ()
+    assert set(bad.culprits) >= {("vertex", BAD[0]), ("vertex", BAD[-1])}
+    again = started(tube(), BAD)
+    search.find_problems(again, again.outcomes)
+    assert again.outcomes[0].culprits == bad.culprits
+
+
+def test_a_refusal_names_its_vertices_once_and_in_order():
+    refusal = refusals.Refusal("why", np.array([[7, 3], [3, 5]]))
+    assert str(refusal) == "why"
+    assert refusals.culprits(refusal) == (("vertex", 3), ("vertex", 5), ("vertex", 7))
+    assert refusals.culprits(ValueError("elsewhere")) == ()
+    outcome = outcomes_module.Outcome("Tube", None)
+    outcome.refuse(refusal)
+    assert (outcome.problem, outcome.culprits) == ("why", refusal.elements)

@@ -3,6 +3,7 @@
 
 import math
 
+import bmesh
 import bpy
 import numpy as np
 from made_meshes import (
@@ -11,9 +12,11 @@ from made_meshes import (
     edge_set,
     marked_edges,
     mesh_state,
+    pairs,
     ring,
+    select,
 )
-from mathutils import Matrix
+from mathutils import Matrix, Vector
 from minimum_ratio_contours.core.preview import Preview
 from prepared import FRONT, LOOP, cylinder, now
 
@@ -210,3 +213,28 @@ def test_a_failure_leaves_no_overlay_behind(window):
         Preview.search = search
     yield from window.wait()
     assert np.array_equal(window.upper(window.picture("after")), untouched)
+
+
+def test_what_is_refused_is_framed_and_undo_restores_the_selection(window):
+    """The culprit is an edge that has three faces."""
+    obj = cylinder()
+    a, b, *_ = ring(GROOVE - 3)
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    bm.faces.new([bm.verts[a], bm.verts[b], bm.verts.new((2, 0, 1))])
+    for edge in bm.edges:
+        edge.select_set(False)
+    bmesh.update_edit_mesh(obj.data)
+    select(obj, pairs(ring(GROOVE - 3)))
+    bpy.ops.ed.undo_push(message="prepared")
+    before = mesh_state(obj)
+    assert window.operator("optimize_contour") == {"CANCELLED"}
+    for _ in range(30):  # the view moves smoothly
+        yield
+    shown = [vertex for vertex in bmesh.from_edit_mesh(now().data).verts if vertex.select]
+    assert {a, b} <= {vertex.index for vertex in shown} != set(ring(GROOVE - 3))
+    center = sum((vertex.co for vertex in shown), Vector()) / len(shown)
+    assert (window.view.view_location - center).length < 0.5
+    window.picture("refused")
+    yield from window.press("Z", ctrl=True)
+    assert mesh_state(now()) == before
