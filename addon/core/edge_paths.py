@@ -38,6 +38,23 @@ def sort_edges(edges):
     )
 
 
+def sort_directed_edges(edges):
+    """Do the same as sort_edges, and give loops and chains the direction of the edges that they are made of."""
+    pieces = sort_edges(edges)
+    return SelectedContours(
+        [along(loop, edges) for loop in pieces.loops],
+        [along(chain, edges, closed=False) for chain in pieces.chains],
+        pieces.branching,
+    )
+
+
+def all_edges(pieces):
+    """Return the (n, 2) edges of all pieces together, in the direction of loops and chains."""
+    found = [contour_edges(loop) for loop in pieces.loops]
+    found += [contour_edges(chain, closed=False) for chain in pieces.chains]
+    return np.concatenate([np.empty((0, 2), dtype=np.int32), *found, *pieces.branching])
+
+
 def branch_vertices(edges):
     """Return the vertices at which three or more of the (n, 2) edges meet."""
     vertices, counts = np.unique(edges, return_counts=True)

@@ -78,6 +78,12 @@ def meets_another(vertices):
     )
 
 
+def left_out(counts):
+    """Return a note on what was selected but hardly meant, given how many there are of each kind; empty if none."""
+    parts = [f"{count} {noun}" + "s" * (count != 1) for noun, count in sorted(counts.items()) if count]
+    return ["Left out of the selection: " + ", ".join(parts)] if parts else []
+
+
 def level(outcomes, warnings):
     """Return Blender's report level: a warning if there are warnings or problems, or no outcome at all."""
     return "WARNING" if warnings or not outcomes or any(outcome.problem for outcome in outcomes) else "INFO"

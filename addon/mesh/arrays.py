@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from ..core import edge_paths
+from ..core.face_borders import FaceSelection
 from . import attributes
 
 _SCALE_TOLERANCE = 1e-3  # scales that differ by less than this fraction are the same
@@ -57,29 +58,22 @@ def read_arrays(obj):
     )
 
 
-@dataclass(frozen=True)
-class EdgeSelection:
-    """The edges of the contours that the user selected, as vertex pairs, and those of them that no face uses."""
-
-    edges: np.ndarray  # in face mode directed, with the selected face to the left
-    loose: np.ndarray
-    borderless: bool = False  # whether faces are selected but have no border that could move
-
-
-def read_selection(obj, face_mode):
-    """Return the selected edges of a synchronized mesh; in face mode the borders of the selected faces.
+def read_selected_edges(obj):
+    """Return the selected edges of a synchronized mesh as (n, 2) vertices, and those of them that no face uses.
 
     In Edit Mode, hidden elements are never selected.
     """
-    if face_mode:
-        directed = _selected_border(obj)
-        borderless = len(directed) == 0 and bool(attributes.read(obj, "polygons", "select", bool).any())
-        return EdgeSelection(directed, directed[:0], borderless)
     chosen = np.flatnonzero(attributes.read(obj, "edges", "select", bool))
     edges = attributes.read(obj, "edges", "vertices", np.int32, 2)[chosen]
     used = np.zeros(len(obj.data.edges), dtype=bool)
     used[attributes.read(obj, "loops", "edge_index", np.int32)] = True
-    return EdgeSelection(edges, edges[~used[chosen]])
+    return edges, edges[~used[chosen]]
+
+
+def read_selected_faces(obj):
+    """Return the selected faces of a synchronized mesh as a FaceSelection."""
+    selected = attributes.read(obj, "polygons", "select", bool)
+    return FaceSelection(_read_points(obj), **vars(read_edge_arrays(obj)), selected=selected)
 
 
 @dataclass(frozen=True)
@@ -179,21 +173,6 @@ def find_edges(bm, pairs):
     """Return the edges between pairs of vertex ids."""
     bm.verts.ensure_lookup_table()
     return [bm.edges.get((bm.verts[a], bm.verts[b])) for a, b in pairs]
-
-
-def _selected_border(obj):
-    """Return the edges around the selected faces, in the direction of the selected face's corners."""
-    arrays, selected = read_edge_arrays(obj), attributes.read(obj, "polygons", "select", bool)
-    hidden = np.zeros(len(selected), dtype=bool)
-    hidden[arrays.hidden_faces] = True
-    edges, corner_edges = arrays.edges, arrays.corner_edges
-    chosen = edge_paths.region_border(arrays.face_offsets, corner_edges, selected, hidden, len(edges))
-    corner_faces = np.repeat(np.arange(len(selected)), np.diff(arrays.face_offsets))
-    corners = np.flatnonzero(selected[corner_faces] & np.isin(corner_edges, chosen))
-    tails = np.full(len(edges), -1)
-    tails[corner_edges[corners]] = arrays.corner_vertices[corners]
-    backward = edges[chosen, 0] != tails[chosen]
-    return np.where(backward[:, None], edges[chosen, ::-1], edges[chosen])
 
 
 def _read_points(obj):

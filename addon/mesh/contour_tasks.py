@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reads the selected contours of meshes in Edit Mode, to be optimized. Changes nothing in the meshes."""
 
-from dataclasses import dataclass
+from collections import Counter
+from dataclasses import dataclass, field
 
 import bpy
 import numpy as np
@@ -11,7 +12,14 @@ from ..core.outcomes import Outcome
 from ..core.refusals import Refusal
 from ..core.search import ContourSearch
 from . import constraint_layers
-from .arrays import is_inside_out, is_unevenly_scaled, read_selection, synchronize, with_mirror_images
+from .arrays import (
+    is_inside_out,
+    is_unevenly_scaled,
+    read_selected_edges,
+    read_selected_faces,
+    synchronize,
+    with_mirror_images,
+)
 from .surface_cache import arrays_and_surface_of
 
 
@@ -22,6 +30,8 @@ class ContourTask(ContourSearch):
     obj: bpy.types.Object = None
     mirrored: bool = False  # whether some contours are only mirror images of the selected ones
     asymmetric: bool = False  # whether X Mirror is on but mirror images are missing
+    left_out: Counter = field(default_factory=Counter)  # what was selected but hardly meant: how many of each kind
+    strays: tuple = ()  # in face mode the faces of islands that do not count, and those of pinholes that do
 
     def old_edges(self):
         """Return the edges of the contours that have a result, as they were selected."""
@@ -48,20 +58,12 @@ def read_tasks(objects, face_mode, close=False, constraints=None):
 def read_task(obj, face_mode, close=False):
     """Return the selected contours of one object, without its surface."""
     synchronize(obj)
-    selection = read_selection(obj, face_mode)
-    mirror = obj.data.use_mirror_x and len(selection.edges) > 0
-    images = with_mirror_images(obj, selection.edges) if mirror else None
-    edges = selection.edges if images is None else images
-    outcomes = _outcomes(obj.name, edges, face_mode)
-    if selection.borderless:
-        outcomes.append(Outcome(obj.name, edges, problem=messages.NO_BORDER))
-    for outcome in outcomes:
-        outcome.closing = close and not face_mode and not outcome.closed
-        refusal = None if outcome.problem else _refusal(outcome, selection.loose)
+    task = _read_faces(obj) if face_mode else _read_edges(obj, close)
+    for outcome in task.outcomes:
+        refusal = None if outcome.problem else _refusal(outcome)
         if refusal:
             outcome.refuse(refusal)
-    mirrored = len(edges) > len(selection.edges)
-    return ContourTask(outcomes, face_mode, obj=obj, mirrored=mirrored, asymmetric=mirror and images is None)
+    return task
 
 
 def warnings(tasks):
@@ -81,13 +83,50 @@ def warnings_of(task):
     return found
 
 
-def _outcomes(place, edges, face_mode):
-    """Return one outcome for each connected piece; in face mode with the selected part to the left."""
-    pieces = edge_paths.sort_edges(edges)
-    given = [(loop, True) for loop in pieces.loops] + [(chain, False) for chain in pieces.chains]
-    if face_mode:
-        given = [(edge_paths.along(vertices, edges, closed), closed) for vertices, closed in given]
-    return [Outcome.of(place, vertices, closed) for vertices, closed in given] + [
+def notes(tasks):
+    """Return what was left out of the selections of objects with results."""
+    return messages.left_out(sum((task.left_out for task in tasks if task.done()), Counter()))
+
+
+def _read_edges(obj, close):
+    """Read the contours of the selected edges; with `close`, chains will be closed."""
+    edges, loose = read_selected_edges(obj)
+    edges, mirrored, asymmetric = _with_images(obj, edges)
+    outcomes = _outcomes(obj.name, edge_paths.sort_edges(edges))
+    for outcome in outcomes:
+        outcome.closing = close and not outcome.closed
+        _refuse_loose(outcome, edge_paths.common_edges(outcome.edges, loose))
+    return ContourTask(outcomes, obj=obj, mirrored=mirrored, asymmetric=asymmetric)
+
+
+def _read_faces(obj):
+    """Read the borders of the selected faces, with these to their left."""
+    selection = read_selected_faces(obj)
+    found = selection.borders()
+    given = edge_paths.all_edges(found)
+    edges, mirrored, asymmetric = _with_images(obj, given)
+    pieces = edge_paths.sort_directed_edges(edges) if mirrored else found
+    outcomes = _outcomes(obj.name, pieces)
+    if not outcomes and selection.selected.any():
+        outcomes.append(Outcome(obj.name, edges, problem=messages.NO_BORDER))
+    task = ContourTask(outcomes, True, obj=obj, mirrored=mirrored, asymmetric=asymmetric)
+    task.left_out = Counter(island=found.island_count, pinhole=found.pinhole_count)
+    task.strays = found.islands, found.pinholes
+    return task
+
+
+def _with_images(obj, edges):
+    """Return the edges with their mirror images if X Mirror is on, whether there are any, and whether some lack."""
+    mirror = obj.data.use_mirror_x and len(edges) > 0
+    images = with_mirror_images(obj, edges) if mirror else None
+    found = edges if images is None else images
+    return found, len(found) > len(edges), mirror and images is None
+
+
+def _outcomes(place, pieces):
+    """Return one outcome for each loop, chain and branching piece."""
+    contours = [(loop, True) for loop in pieces.loops] + [(chain, False) for chain in pieces.chains]
+    return [Outcome.of(place, vertices, closed) for vertices, closed in contours] + [
         _branching(place, piece) for piece in pieces.branching
     ]
 
@@ -99,11 +138,14 @@ def _branching(place, edges):
     return outcome
 
 
-def _refusal(outcome, loose_edges):
+def _refuse_loose(outcome, loose):
+    """Give a contour some of whose edges no face uses this problem."""
+    if len(loose) and not outcome.problem:
+        outcome.refuse(Refusal(messages.loose(loose, outcome.closed), loose))
+
+
+def _refusal(outcome):
     """Return why a contour cannot be searched at all; None if it can."""
-    loose = edge_paths.common_edges(outcome.edges, loose_edges)
-    if len(loose):
-        return Refusal(messages.loose(loose, outcome.closed), loose)
     if len(outcome.edges) == 1 and not outcome.closing:
         return Refusal(messages.single_edge(outcome.vertices), outcome.vertices)
     return None

@@ -117,6 +117,7 @@ class _Cut:
         self.changes_faces = options.output in SPLITTING or cutting.cuts_faces(self.bm, results)
         self.normals_stored = self.changes_faces and custom_normals.store(task.obj, self.bm, cutting.faces_cut(results))
         self._clear_old(task.old_edges())
+        self.strays = self._tidy_strays(*task.strays)
         ids = cutting.cut_contours(self.bm, results, options.merge)
         self.contours = [(vertices, result.closed) for vertices, result in zip(ids, results)]
         self.edges = self._edges_along(self.contours)
@@ -133,9 +134,8 @@ class _Cut:
         if self.options.output in SPLITTING:
             self._rip()
         if self.from_faces:
-            _tidy_selection(
-                moved | {face for edge in self.edges for vertex in edge.verts for face in vertex.link_faces}
-            )
+            beside = {face for edge in self.edges for vertex in edge.verts for face in vertex.link_faces}
+            _tidy_selection(moved | beside | {face for face in self.strays if face.is_valid})
         else:
             edge_marks.select_each([self.edges], True)
         edge_marks.flush_selection(self.bm)
@@ -150,6 +150,14 @@ class _Cut:
         edge_marks.clear_given(edges, self.options.output, self.options.keep_old)
         if not self.from_faces:
             edge_marks.select_each([edges], False)
+
+    def _tidy_strays(self, islands=(), pinholes=()):
+        """Deselect stray islands and select pinholes, by their faces, before the cut may split them; return all."""
+        self.bm.faces.ensure_lookup_table()
+        off, on = ([self.bm.faces[face] for face in faces] for faces in (islands, pinholes))
+        edge_marks.select_each([off], False)
+        edge_marks.select_each([on], True)
+        return {*off, *on}
 
     def _move_selected_faces(self):
         """Select the faces to the left of the contours, deselect those to the right, and return what has changed."""

@@ -114,7 +114,8 @@ class ContourOutput(CutSettings):
         warnings = contour_tasks.warnings(tasks)
         outputs.refuse(tasks, options)
         outcomes = [outcome for task in tasks for outcome in task.outcomes]
-        message = messages.summary(outcomes, warnings + messages.turn_notes(outcomes, self.max_turn))
+        notes = contour_tasks.notes(tasks) + messages.turn_notes(outcomes, self.max_turn)
+        message = messages.summary(outcomes, warnings + notes)
         changed = outputs.write(context, tasks, options)
         return self.conclude(context, messages.level(outcomes, warnings), message, outcomes, changed)
 

@@ -185,18 +185,55 @@ def test_only_the_inner_border_of_a_region_at_the_mesh_border_moves():
     assert not marked_edges(obj, "seam")
 
 
-def test_a_branching_border_of_faces_stays_selected(last):
-    obj = grooved_cylinder()
+def selected_faces_but(obj, *changed):
+    """Select the faces below the groove, but for these, of which those above it are added."""
     edit(obj, mode="FACE")
     select_first_faces(obj, (GROOVE - 2) * SEGMENTS)
     bm = bmesh.from_edit_mesh(obj.data)
-    touching = [(RINGS - 4) * SEGMENTS + 3, (RINGS - 3) * SEGMENTS + 4]  # two faces that share one vertex
-    for index in touching:
-        bm.faces[index].select_set(True)
-    run(output="SEAM")
-    assert "branches" in last.message
-    assert marked_edges(obj, "seam") == GROOVE_EDGES
-    assert selected_faces(obj) == {*range(GROOVE * SEGMENTS), *touching}
+    bm.faces.ensure_lookup_table()
+    for index in changed:
+        bm.faces[index].select_set(not bm.faces[index].select)
+    bmesh.update_edit_mesh(obj.data)
+
+
+@pytest.mark.parametrize("output", ["SELECT", "SEAM", "SEPARATE"])
+def test_stray_islands_and_pinholes_are_left_out_and_the_report_says_so(output, last):
+    """Two faces that share a vertex above, one hole amid the part, and one whose corner touches the border."""
+    obj = grooved_cylinder()
+    above = [(RINGS - 4) * SEGMENTS + 3, (RINGS - 3) * SEGMENTS + 4]
+    notch = (GROOVE - 3) * SEGMENTS + 9
+    selected_faces_but(obj, *above, 2 * SEGMENTS + 20, notch, notch - SEGMENTS + 1)
+    assert run(output=output) == {"FINISHED"}
+    assert last.message.startswith("1 contour improved. ")
+    assert last.message.endswith("Left out of the selection: 2 islands, 2 pinholes")
+    if output == "SEPARATE":
+        obj.update_from_editmode()
+        assert sorted(len(other.data.vertices) for other in bpy.data.objects) == sorted(
+            [(GROOVE + 1) * SEGMENTS, (RINGS - GROOVE) * SEGMENTS]
+        )
+        return
+    assert selected_faces(obj) == set(range(GROOVE * SEGMENTS))
+    assert marked_edges(obj, "seam") == (GROOVE_EDGES if output == "SEAM" else set())
+    lower = {edge for edge in map(frozenset, all_pairs(obj)) if max(edge) < (GROOVE + 1) * SEGMENTS}
+    assert marked_edges(obj, "select") == lower
+
+
+def all_pairs(obj):
+    return [[vertex.index for vertex in edge.verts] for edge in bmesh.from_edit_mesh(obj.data).edges]
+
+
+def test_parts_that_touch_at_a_vertex_are_contours_of_their_own(last):
+    """Two patches of similar size share a corner, so both are meant."""
+    obj = grooved_cylinder()
+    edit(obj, mode="FACE")
+    bm = bmesh.from_edit_mesh(obj.data)
+    for face in bm.faces:
+        row, column = divmod(face.index, SEGMENTS)
+        face.select_set((3 <= row < 7 and 3 <= column < 9) or (7 <= row < 10 and 9 <= column < 15))
+    bmesh.update_edit_mesh(obj.data)
+    run(output="SEAM", min_salience=0.0)
+    assert len(last.contours) == 2
+    assert "Left out" not in last.message
 
 
 def test_all_objects_in_edit_mode_are_optimized(last):
