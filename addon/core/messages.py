@@ -36,6 +36,7 @@ _REASONS = {
     "no_neighbour": "no loop of edges next to it is free to search from: move it away from borders and from itself",
     "shared_faces": "other contours cross the same faces: optimize one at a time",
     "none_refined": "no better contour was found across faces: set Refinement to 0, or raise it",
+    "slipped_off": "nothing better nearby: all that was found is the tip, and nothing is concave there",
     "cancelled": "cancelled",
 }
 _ANGLE_TOLERANCE = 1e-5  # properties are 32-bit floats

@@ -21,7 +21,7 @@ using mrc::Scales;
 #ifdef PYBIND11_TYPING_H_HAS_STRING_LITERAL
 using StatusName = py::typing::Literal<"'improved'", "'unchanged'", "'constrained'", "'cancelled'">;
 using ReasonName = py::typing::Literal<"''", "'already_best'", "'not_salient'", "'no_room'", "'against_flow'", "'no_neighbour'",
-                                       "'shared_faces'", "'none_refined'", "'cancelled'">;
+                                       "'shared_faces'", "'none_refined'", "'slipped_off'", "'cancelled'">;
 #else  // clang before 18 takes no text as a template's argument
 using StatusName = py::str;
 using ReasonName = py::str;
@@ -59,6 +59,8 @@ const char* reason_name(mrc::Reason reason) {
             return "shared_faces";
         case mrc::Reason::none_refined:
             return "none_refined";
+        case mrc::Reason::slipped_off:
+            return "slipped_off";
         case mrc::Reason::cancelled:
             return "cancelled";
     }
@@ -155,6 +157,7 @@ constexpr std::pair<const char*, int mrc::Statistics::*> statistics_numbers[] = 
     {"linear_steps", &mrc::Statistics::linear_steps},
     {"passes", &mrc::Statistics::passes},
     {"iterations", &mrc::Statistics::iterations},
+    {"rings", &mrc::Statistics::rings},
 };
 
 Dict statistics(const PyResult& r) {
@@ -173,6 +176,7 @@ py::dict result_state(const PyResult& r) {
     state["reason"] = r.result.reason;
     state["history"] = r.result.history;
     state["held_back_by"] = r.result.held_back_by;
+    state["non_manifold"] = r.result.non_manifold;
     state["scales"] = r.result.scales;
     state["statistics"] = statistics(r);
     state["positions"] = rows_of_three(r.positions, [](const mrc::Vec3& p) { return p; });
@@ -189,6 +193,7 @@ PyResult result_from_state(const py::dict& state) {
     r.result.reason = state["reason"].cast<std::string>();
     r.result.history = state["history"].cast<std::vector<double>>();
     r.result.held_back_by = state["held_back_by"].cast<std::vector<int>>();
+    r.result.non_manifold = state["non_manifold"].cast<std::vector<int>>();
     r.result.scales = state["scales"].cast<Scales>();
     const py::dict counts = state["statistics"];
     for (const auto& [name, member] : statistics_numbers) r.result.statistics.*member = counts[name].cast<int>();
@@ -247,7 +252,7 @@ void bind_results(py::module_& module) {
         .def_property_readonly(
             "reason_code", [](const PyResult& r) { return ReasonName(py::str(reason_name(r.result.reason_code))); },
             "The same as reason for programs: 'already_best', 'not_salient', 'no_room', 'against_flow', 'no_neighbour',\n"
-            "'shared_faces', 'none_refined', 'cancelled', or empty.")
+            "'shared_faces', 'none_refined', 'slipped_off', 'cancelled', or empty.")
         .def_property_readonly(
             "reason", field(&mrc::Result::reason),
             "In words: why the given contour is returned or, for a 'constrained' result, that nothing concave was found\n"
@@ -271,6 +276,11 @@ void bind_results(py::module_& module) {
             "tuple of int: the contours of optimize_all that kept this one's last band from growing, by their place in the "
             "list.")
         .def_property_readonly(
+            "non_manifold", [](const PyResult& r) { return to_array(r.result.non_manifold); },
+            "(N,) int32: vertices at which the last band had to stop, since faces beside it meet there in a point, more than two "
+            "in\n"
+            "an edge, or two whose normals disagree.")
+        .def_property_readonly(
             "history", field(&mrc::Result::history),
             "list of float: the objective of the contour that the iterations start from, then that after each iteration that\n"
             "had a band: one such series for regular_iterations and one for iterations. It never rises within a series. Where\n"
@@ -280,7 +290,8 @@ void bind_results(py::module_& module) {
         .def_property_readonly(
             "statistics", &statistics,
             "dict: faces, cut, nodes, arcs, linear_steps and passes of the last iteration, as in tables 5.1 and 5.2; iterations, "
-            "done in all; seconds, a dict of the time that each stage took.")
+            "done in all; rings, how many edges lead from the given contour to the farthest point of the one returned; seconds, a "
+            "dict of the time that each stage took.")
         .def_property_readonly("contour", field(&mrc::Result::contour), "The Contour found.")
         .def_property_readonly("length", field(&mrc::Result::length),
                                "Of the contour returned along its segments, in the mesh's unit.")

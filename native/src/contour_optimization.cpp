@@ -2,6 +2,8 @@
 #include "contour_optimization.h"
 
 #include "contour_scales.h"
+#include "cut_off.h"
+#include "distances.h"
 #include "number_text.h"
 #include "required_elements.h"
 #include "trace_contour.h"
@@ -168,8 +170,27 @@ Result ContourOptimization::finish() {
     const bool lost = result_.status == Status::improved && !below(result_.objective, result_.initial_objective);
     if (result_.status == Status::improved && (lost || (searched_ && featureless()))) keep_given();
     if (lost) because(Reason::none_refined, "no better contour was found across faces");
+    keep_on_part();
     result_.length = contour_length(surface_, result_.contour);
+    result_.statistics.rings = rings_between(surface_, given_, result_.contour);
+    result_.non_manifold = irregular_vertices();
     return result_;
+}
+
+/// Those of the faces beside the last band.
+std::vector<int> ContourOptimization::irregular_vertices() const {
+    std::vector<int> found;
+    for (std::size_t v = 0; patch_ && v < patch_->vertex.size(); ++v) {
+        if (band_.side[v] == Side::outside) continue;
+        for (const int h : surface_.outgoing(patch_->vertex[v])) {
+            for (const int w : surface_.face(surface_.halfedge_face(h))) {
+                if (!surface_.regular(w)) found.push_back(w);
+            }
+        }
+    }
+    std::ranges::sort(found);
+    found.erase(std::ranges::unique(found).begin(), found.end());
+    return found;
 }
 
 void ContourOptimization::settle_where_given() {
@@ -231,6 +252,16 @@ void ContourOptimization::accept(const Contour& found, const std::optional<EdgeF
 /// True where the best contour is not concave enough to move to (min_salience).
 bool ContourOptimization::featureless() const {
     return result_.salience < options_.min_salience.value_or(-std::numeric_limits<double>::infinity());
+}
+
+/// Returns to the given contour from one that has slipped off the part, where nothing asks for it: no attractor, no region.
+void ContourOptimization::keep_on_part() {
+    if (result_.status != Status::improved || !constraints_->attractors.empty() || constraints_->has_region()) return;
+    const int triangles = slipped_off(surface_, given_, result_.contour, result_.salience);
+    if (triangles == 0) return;
+    keep_given();
+    because(Reason::slipped_off, "the best contour found follows nothing concave and cuts off only " + std::to_string(triangles) +
+                                     (triangles == 1 ? " triangle" : " triangles") + ": it has slipped onto a tip");
 }
 
 void ContourOptimization::explain_featureless() {

@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace mrc {
 
@@ -111,6 +112,8 @@ class ContourOptimization {
     void explain_featureless();
     void because(Reason code, std::string words);
     void keep_given();
+    void keep_on_part();
+    std::vector<int> irregular_vertices() const;
     void count(const ContourGraph& graph, const RatioResult& best);
 };
 

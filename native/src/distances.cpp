@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "distances.h"
 
+#include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace mrc {
 
@@ -71,6 +73,23 @@ std::vector<int> vertices_within(const Surface& surface, std::span<const int> ve
         }
     }
     return found;
+}
+
+int rings_between(const Surface& surface, const Contour& from, const Contour& to) {
+    std::unordered_set<int> seen;
+    std::vector<int> front;
+    const auto enter = [&](int vertex) {
+        if (seen.insert(vertex).second) front.push_back(vertex);
+    };
+    for (const SurfacePoint& p : from.points) {
+        enter(p.a);
+        enter(p.b);
+    }
+    const auto reached = [&](const SurfacePoint& p) { return seen.contains(p.a) || seen.contains(p.b); };
+    for (int rings = 0;; ++rings) {
+        if (front.empty() || std::ranges::all_of(to.points, reached)) return rings;
+        for (const int v : std::exchange(front, {})) surface.for_each_real_edge(v, [&](int neighbor, int) { enter(neighbor); });
+    }
 }
 
 }  // namespace mrc

@@ -49,4 +49,7 @@ class DistanceField {
 /// The vertices at most `rings` real edges away, the given ones first, from near to far; nothing stops them.
 std::vector<int> vertices_within(const Surface& surface, std::span<const int> vertices, int rings);
 
+/// How many real edges lead from one contour to the farthest point of another; of a point inside an edge, to its nearer end.
+int rings_between(const Surface& surface, const Contour& from, const Contour& to);
+
 }  // namespace mrc

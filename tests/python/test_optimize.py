@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 from brute_force import same_cycle
 from conftest import realistic_contours, surface_of
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 HARMONIC = mrc.Options(width=4, flow="harmonic")
 
@@ -288,7 +290,7 @@ def test_triangle_arrays_need_no_offsets(realistic):
 
 
 def test_iterations_go_on_where_the_first_band_has_nothing_concave():
-    """The second reaches the groove, of which the first sees nothing; a band without any is left at the given contour."""
+    """The second reaches the groove, of which the first sees nothing."""
     rows, around = 121, 64
     height = np.linspace(-2, 2, rows)
     mesh = meshes.tube(1 - 0.3 * np.exp(-60 * (height - 0.2) ** 2), around, step=4 / (rows - 1))
@@ -300,3 +302,52 @@ def test_iterations_go_on_where_the_first_band_has_nothing_concave():
     assert (once.status, once.reason_code) == ("unchanged", "not_salient")
     assert twice.status == "improved"
     assert set(twice.vertices // around) == {groove}
+
+
+# ---- onto a tip
+
+
+def cut_off(mesh, loop):
+    """The number of triangles on the smaller side of a loop along edges."""
+    owners = {}
+    for number, triangle in enumerate(mesh.triangles.tolist()):
+        for pair in zip(triangle, np.roll(triangle, -1).tolist(), strict=True):
+            owners.setdefault(frozenset(pair), []).append(number)
+    walls = {frozenset(pair) for pair in zip(loop.tolist(), np.roll(loop, -1).tolist(), strict=True)}
+    pairs = np.array([pair for edge, pair in owners.items() if len(pair) == 2 and edge not in walls])
+    count = len(mesh.triangles)
+    graph = coo_array((np.ones(len(pairs)), pairs.T), shape=(count, count))
+    return np.bincount(connected_components(graph, directed=False)[1]).min()
+
+
+# Options.recommended, without what says that nothing is concave
+RECOMMENDED = {"iterations": 2, "length_bias": 2.0, "length_floor": 0.5, "anchor": 0.5, "feature_clamp": 0.9}
+
+
+def egg_loops():
+    """Loops around both ends of a smooth egg, where nothing is concave."""
+    rng = np.random.default_rng(3)
+    egg = meshes.icosphere(4)
+    egg = egg.moved(egg.positions * [0.6, 0.7, 1.5] + 0.002 * rng.standard_normal(egg.positions.shape))
+    for end in (-1.0, 1.0):
+        for height in (0.3, 0.9, 1.2, 1.4, 1.47):
+            yield egg, meshes.plane_contours(egg, np.array([0.1, 0.0, end]), height)[0]
+
+
+@pytest.mark.parametrize("refinement", [0, 1])
+@pytest.mark.parametrize("width", [None, 8])
+def test_a_loop_that_slips_onto_a_tip_is_no_improvement(width, refinement):
+    options = mrc.Options(**RECOMMENDED | {"width": width, "refinement": refinement})
+    reasons = []
+    for egg, loop in egg_loops():
+        result = optimize(egg, loop, options)
+        reasons.append(result.reason_code)
+        if result.status == "improved":
+            if refinement == 0:
+                left = cut_off(egg, result.vertices)
+                assert left >= min(0.004 * len(egg.triangles), cut_off(egg, np.array(loop))) or result.salience >= 0.25
+        elif result.reason_code == "slipped_off":
+            assert result.vertices.tolist() == list(loop)
+            assert (result.objective, result.ratio) == (result.initial_objective, result.initial_ratio)
+            assert "tip" in result.reason
+    assert "slipped_off" in reasons

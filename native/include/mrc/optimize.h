@@ -30,6 +30,7 @@ enum class Reason {
     no_neighbour,  ///< the given contour is refined, and no simple contour along edges lies beside it
     shared_faces,  ///< no band can grow: other contours cross its faces too
     none_refined,  ///< a contour along edges is better, but none with Steiner points is
+    slipped_off,   ///< the best found follows nothing and cuts off next to nothing: it has slipped off the part, onto its tip
     cancelled,
 };
 
@@ -39,9 +40,10 @@ struct Statistics {
     int cut = 0;    ///< chords that cross the chosen level
     int nodes = 0;
     int arcs = 0;
-    int linear_steps = 0;                   ///< times that lambda fell
-    int passes = 0;                         ///< relaxations of the graph
-    int iterations = 0;                     ///< how many were done in the whole call
+    int linear_steps = 0;  ///< times that lambda fell
+    int passes = 0;        ///< relaxations of the graph
+    int iterations = 0;    ///< how many were done in the whole call
+    int rings = 0;         ///< how many edges lead from the given contour to the farthest point of the one returned
     std::map<std::string, double> seconds;  ///< of each stage by name, summed over the iterations
 };
 
@@ -64,6 +66,9 @@ struct Result {
     /// the first contour that keeps all is the start.
     std::vector<double> history;
     std::vector<int> held_back_by;  ///< of several contours: those that kept this one's last band from growing, ascending
+    /// Vertices at which the last band had to stop: beside it lie faces at vertices with more than one fan, at edges of more than
+    /// two faces, or at edges whose two normals disagree. Ascending.
+    std::vector<int> non_manifold;
     Scales scales;
     Statistics statistics;
 };
