@@ -267,3 +267,101 @@ def test_errors_name_the_bad_vertices_of_a_chain(chain, message):
     mesh = meshes.tube(np.full(20, 1.0), COLUMNS)
     with pytest.raises(ValueError, match=message):
         mrc.close_contour(surface_of(mesh), np.array(chain, dtype=np.int32))
+
+
+# ---- nothing doubles back
+
+
+def split_tube(radius, caps=False):
+    """A tube whose column 0 has vertices of its own on each side, as a format with texture coordinates stores it."""
+    mesh = meshes.tube(radius, COLUMNS, step=0.2)
+    rows, count = len(radius), len(mesh.positions)
+    first = np.arange(rows) * COLUMNS
+    twin = dict(zip(first.tolist(), range(count, count + rows), strict=True))
+    faces = [
+        tuple(twin.get(v, v) for v in face) if {v % COLUMNS for v in face} == {0, COLUMNS - 1} else face
+        for face in mesh.faces
+    ]
+    positions = np.concatenate([mesh.positions, mesh.positions[first]])
+    if caps:
+        top = (rows - 1) * COLUMNS + np.arange(COLUMNS)
+        around = [*top.tolist(), twin[int(top[0])]]
+        faces += [(a, b, len(positions)) for a, b in zip(around, around[1:], strict=False)]
+        positions = np.concatenate([positions, [[0, 0, 0.2 * rows]]])
+    return meshes.polygon_mesh(positions, faces), count
+
+
+GROOVED = 1 - 0.3 * np.exp(-(((np.arange(41) - 22) / 4.0) ** 2))
+
+
+@pytest.mark.parametrize("radius", [np.full(41, 1.0), GROOVED])
+@pytest.mark.parametrize(
+    ("part", "caps"),
+    [
+        (slice(None), False),
+        (slice(None), True),
+        (slice(1, None), False),
+        (slice(1, None), True),
+        (slice(4, 14), False),
+        (slice(8, 12), False),
+        (slice(0, 9), False),
+        (slice(0, 9), True),
+    ],
+)
+@pytest.mark.parametrize("row", [19, 22])
+def test_on_a_mesh_that_is_split_a_chain_is_refused_with_the_cure(radius, caps, part, row):
+    mesh, count = split_tube(radius, caps)
+    chain = [*range(row * COLUMNS, (row + 1) * COLUMNS), count + row][part]
+    with pytest.raises(ValueError, match="lie at the same place.*Merge by Distance") as caught:
+        mrc.close_contour(surface_of(mesh), chain)
+    places = mesh.positions[[vertex for _, vertex in caught.value.elements]]
+    np.testing.assert_array_equal(places[0], places[1])
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
+def test_a_slit_leaves_no_way_back_beside_a_chain_that_is_nearly_a_loop(scale):
+    mesh = meshes.tube(GROOVED, COLUMNS, step=0.2)
+    kept = [face for face in mesh.faces if {v % COLUMNS for v in face} != {0, COLUMNS - 1}]
+    slit = meshes.polygon_mesh(mesh.positions * scale, kept)
+    for row in (16, 19, 22):
+        for count in (COLUMNS, COLUMNS - 3, COLUMNS // 2):
+            with pytest.raises(ValueError, match="nothing leads"):
+                mrc.close_contour(surface_of(slit), row * COLUMNS + np.arange(count))
+
+
+def blade(rows, half_width=6, height=0.25):
+    """A flat limb, two faces thick, of this many rows of faces up to its end."""
+    across = np.linspace(-1, 1, 2 * half_width + 1)
+    thick = 0.1
+    section = [(x, -thick) for x in across] + [(1.05, 0.0)] + [(x, thick) for x in across[::-1]] + [(-1.05, 0.0)]
+    columns = len(section)
+    rings = [np.column_stack([section, np.full(columns, height * row)]) for row in range(30 + rows)]
+    faces = meshes.grid_faces(30 + rows, columns)
+    top = np.arange((29 + rows) * columns, (30 + rows) * columns)
+    faces += [tuple(top.tolist())]
+    return meshes.polygon_mesh(np.concatenate(rings), faces), columns
+
+
+@pytest.mark.parametrize("rows", [1, 2, 3, 8])
+@pytest.mark.parametrize("count", [7, 13, 20, 27])
+def test_short_limbs_are_no_way_back(rows, count):
+    """Even where the end of a flat limb is much nearer than its sides."""
+    mesh, columns = blade(rows)
+    chain = 29 * columns + np.arange(min(count, columns - 1))
+    loop = mrc.close_contour(surface_of(mesh), chain)
+    check_simple(mesh, loop, chain)
+    assert set(loop % columns) >= set(range(columns)) - {13, 27}
+
+
+@pytest.mark.parametrize("sides", [3, 4, 6])
+def test_a_spike_of_few_faces_is_a_limb(sides):
+    radius = [1.0, 1.0, 1.0, 0.9, 0.6]
+    mesh = meshes.tube(radius, sides, step=0.8)
+    base = (len(radius) - 2) * sides + np.arange(sides)
+    top = base + sides
+    tip = len(mesh.positions)
+    faces = [*mesh.faces, *[(a, b, tip) for a, b in zip(top.tolist(), np.roll(top, -1).tolist(), strict=True)]]
+    spike = meshes.polygon_mesh(np.concatenate([mesh.positions, [[0, 0, 4.5]]]), faces)
+    for ring in (base, top):
+        loop = mrc.close_contour(surface_of(spike), ring[:-1])
+        assert set(loop.tolist()) == set(ring.tolist())

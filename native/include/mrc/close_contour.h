@@ -16,7 +16,7 @@ namespace mrc {
 /// `progress` is called every few milliseconds with the fraction of the surface's vertices searched so far; where it cancels, the
 /// result has no points.
 /// @throws InvalidInput where the chain is closed, is not a simple path along mesh edges, has points inside edges, or cannot be
-/// closed around anything, as on a plane.
+/// closed around anything: on a plane, or where only a way back beside the chain is left, as where the mesh is split there.
 Contour close_contour(const Surface& surface, const Contour& chain, const Progress& progress = {});
 
 }  // namespace mrc
