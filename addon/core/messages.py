@@ -1,5 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""All messages that the add-on shows to the user. Does not need Blender."""
+"""All messages that the add-on shows to the user. Does not need Blender.
+
+A report is one line of sentences: what was found and where; what stays, and why; notes. A reason is "cause: cure", in
+the panel's words, and no report gives one twice. Numbers that need explaining are left to the panel.
+"""
+
+from collections import Counter
 
 import numpy as np
 
@@ -14,12 +20,12 @@ NO_BORDER = "the selected faces have no border inside the mesh: deselect some"
 TURN_LESS = "Sharpest Turn is below its default: raise it to let contours turn more"
 NO_FACES = "it has no faces, and only faces have a curvature"
 NO_VIEW = "Contours are adjusted in a 3D Viewport: move the mouse over one, or use Optimize Contour"
-_SALIENCES = (  # (least salience, its name)
-    (2.0, "clear boundary"),
-    (1.0, "good boundary"),
-    (0.5, "faint boundary"),
-    (0.25, "hardly concave"),
-    (-np.inf, "nothing concave here"),
+_SALIENCES = (  # (least salience, its name, that of several)
+    (2.0, "clear boundary", "clear boundaries"),
+    (1.0, "good boundary", "good boundaries"),
+    (0.5, "faint boundary", "faint boundaries"),
+    (0.25, "hardly concave", "hardly concave"),
+    (-np.inf, "nothing concave here", "not concave"),
 )
 # Native errors and the reasons for returning the given contour, by code. The texts name settings as the panel does and
 # suggest a fix; errors without a text here have a sentence of their own.
@@ -29,9 +35,9 @@ _PROBLEMS = {
     "some vertices from the group",
 }
 _REASONS = {
-    "already_best": "it is already the best nearby: raise Width or Reach to look farther",
-    "not_salient": "there is nothing concave to follow here: lower Least Salience to move it anyway",
-    "no_room": "there are no faces around it to search: select fewer contours, or subdivide the mesh",
+    "already_best": "already the best nearby: raise Width or Reach to look farther",
+    "not_salient": "nothing concave to follow nearby: start closer to the groove, or raise Width and Reach",
+    "no_room": "no faces around it to search: select fewer contours, or subdivide the mesh",
     "against_flow": "no path in the band follows it: raise Width or Sharpest Turn",
     "no_neighbour": "no loop of edges next to it is free to search from: move it away from borders and from itself",
     "shared_faces": "other contours cross the same faces: optimize one at a time",
@@ -44,28 +50,36 @@ _MAX_LISTED = 3  # how many items of a list are named
 
 
 def summary(outcomes, notes=()):
-    """Return one line for the status bar: what improved, what did not and why, the ratios, problems and notes."""
+    """Return one line for the status bar: what was found, what stays and why, problems and notes."""
     if not outcomes:
         return NOTHING_SELECTED
-    results = [outcome.result for outcome in outcomes if outcome.result is not None and not outcome.problem]
-    sentences = []
-    if results:
-        moved = any(result.ratio != result.initial_ratio for result in results)
-        sentences = [_statuses(results), _ratios(results)] if moved else [_statuses(results)]
+    done = [outcome for outcome in outcomes if outcome.result is not None and not outcome.problem]
     failed = [outcome for outcome in outcomes if outcome.problem]
+    sentences = [_statuses(done)] if done else []
     if failed:
         sentences.append(_left_unchanged(outcomes, failed))
-    return ". ".join([*sentences, *dict.fromkeys(notes)])
+    return ". ".join([*sentences, *dict.fromkeys([*_dents(done), *notes])])
 
 
 def _left_unchanged(outcomes, failed):
     """Return why contours were left unchanged, each problem once, with the objects unless it concerns all of them."""
     everywhere = len({outcome.place for outcome in outcomes})
-    places = {}
+    alike = {}
     for outcome in failed:
-        places.setdefault(outcome.problem, {})[outcome.place] = None
-    texts = [why if len(at) == everywhere else f"{shortened([*at])}: {why}" for why, at in places.items()]
+        alike.setdefault(outcome.kind or outcome.problem, []).append(outcome)
+    texts = []
+    for some in alike.values():
+        places = list(dict.fromkeys(outcome.place for outcome in some))
+        others = len({outcome.problem for outcome in some}) - 1
+        why = some[0].problem + (f" (and {others} more like it)" if others else "")
+        texts.append(why if len(places) == everywhere else f"{shortened(places)}: {why}")
     return "Left unchanged: " + shortened(texts, "; ")
+
+
+def _dents(outcomes):
+    """Return the faults of meshes that may have dented contours."""
+    faults = [str(outcome.fault) for outcome in outcomes if outcome.fault and outcome.result.status != "unchanged"]
+    return [f"A fault of the mesh may have dented a contour: {fault}" for fault in dict.fromkeys(faults)]
 
 
 def single_edge(vertices):
@@ -111,9 +125,13 @@ def reason(result):
     """Return why the given contour was returned; empty if it was not."""
     if not result.reason_code:
         return ""
-    count = len(result.held_back_by)
+    return _REASONS[result.reason_code] + _limited(len(result.held_back_by))
+
+
+def _limited(count):
+    """Return that contours nearby limited a search, to follow the reason; empty if there are none."""
     others = "1 other contour" if count == 1 else f"{count} other contours"
-    return _REASONS[result.reason_code] + (f"; {others} nearby limited the search" if count else "")
+    return f"; {others} nearby limited the search" if count else ""
 
 
 def pins_outside(count):
@@ -240,55 +258,89 @@ def salience(result):
     """Return how far to trust a result, in words and as a number; empty if nothing was searched."""
     if not result.statistics["passes"]:
         return ""
-    words = next(words for least, words in _SALIENCES if result.salience >= least)
+    words = _SALIENCES[_rank(result)][1]
     return f"{words.capitalize()} ({result.salience:.2f})"
 
 
-def _statuses(results):
-    improved = sum(result.status == "improved" for result in results)
-    others = [result for result in results if result.status != "improved"]
-    parts = [f"{_contour_count(improved)} improved"] if improved else []
-    for status in sorted({result.status for result in others}):
-        matching = [result for result in others if result.status == status]
-        reasons = [why for why in dict.fromkeys(map(reason, matching)) if why]
-        count = len(matching) if parts else _contour_count(len(matching))
-        parts.append(f"{count} {status}" + (f" ({shortened(reasons, '; ')})" if reasons else ""))
-    return ", ".join(parts)
+def ratios(result):
+    """Return the ratios before and after, without the mesh's unit."""
+    before, after = (readable(ratio * result.scales.h) for ratio in (result.initial_ratio, result.ratio))
+    return f"Ratio {before} to {after} (per edge)"
+
+
+def readable(number):
+    """Return a number with three digits that count, and without an exponent."""
+    return np.format_float_positional(number, precision=3, unique=False, fractional=False, trim="-")
+
+
+def _rank(result):
+    return next(i for i, row in enumerate(_SALIENCES) if result.salience >= row[0])
+
+
+def _statuses(outcomes):
+    improved = [outcome.result for outcome in outcomes if outcome.result.status == "improved"]
+    others = [outcome for outcome in outcomes if outcome.result.status != "improved"]
+    parts = [f"{_contour_count(len(improved))} improved: {_found(improved)}"] if improved else []
+    for status in sorted({outcome.result.status for outcome in others}):
+        matching = [outcome for outcome in others if outcome.result.status == status]
+        count, why = len(matching) if parts else _contour_count(len(matching)), _reasons(matching)
+        parts.append(f"{count} {status}" + (f": {why}" if why else ""))
+    return "; ".join(parts)
+
+
+def _found(results):
+    """Return what kinds of boundaries were found, and how far away."""
+    several = len(results) > 1
+    counts = sorted(Counter(map(_rank, results)).items())
+    if len(counts) == 1:
+        words = _SALIENCES[counts[0][0]][2 if several else 1]
+    else:
+        words = ", ".join(f"{count} {_SALIENCES[rank][1 if count == 1 else 2]}" for rank, count in counts)
+    return f"{words}, {_away(max(result.statistics['rings'] for result in results), several)}"
+
+
+def _away(rings, several):
+    if rings == 0:
+        return "less than a ring away"
+    return ("up to " if several else "") + ("1 ring away" if rings == 1 else f"{rings} rings away")
+
+
+def _reasons(outcomes):
+    """Return why contours stay, each reason once: a fault of the mesh before what the search says."""
+    reasons = [
+        str(outcome.fault) if outcome.fault else _REASONS.get(outcome.result.reason_code) for outcome in outcomes
+    ]
+    words = shortened([why for why in dict.fromkeys(reasons) if why], "; ")
+    return words + _limited(len({other for outcome in outcomes for other in outcome.result.held_back_by}))
 
 
 def _contour_count(count):
     return f"{count} contour" if count == 1 else f"{count} contours"
 
 
-def _ratios(results):
-    before = np.mean([result.initial_ratio for result in results])
-    after = np.mean([result.ratio for result in results])
-    return f"{'Ratio' if len(results) == 1 else 'Mean ratio'} {before:.4g} to {after:.4g}"
-
-
 # ---- networks
 
 
 def network_summary(outcomes, noun, notes=()):
-    """Return one line for the status bar: how many moved, the ratios, problems and notes."""
-    results = [outcome.result for outcome in outcomes if outcome.result is not None]
+    """Return one line for the status bar: how many moved, what they found, problems and notes."""
+    done = [outcome for outcome in outcomes if outcome.result is not None]
     failed = [outcome for outcome in outcomes if outcome.result is None]
-    moved = sum(result.status == "improved" for result in results)
+    moved = [outcome.result for outcome in done if outcome.result.status == "improved"]
     sentences = []
     if moved:
-        sentences = [f"{moved} of {len(outcomes)} {noun} moved", _ratios(results)]
-    elif results:
-        sentences = [_nothing_better(results, noun)]
+        sentences = [f"{len(moved)} of {len(outcomes)} {noun} moved: {_found(moved)}"]
+    elif done:
+        sentences = [_nothing_better(done, noun)]
     if failed:
         sentences.append(_left_unchanged(outcomes, failed))
     return ". ".join([*sentences, *dict.fromkeys(notes)])
 
 
-def _nothing_better(results, noun):
+def _nothing_better(outcomes, noun):
     """Return that nothing better was found, with the reason if it is the same for all."""
-    reasons = set(map(reason, results))
-    why = reasons.pop() if len(reasons) == 1 else ""
-    return f"No better position was found for the {noun}" + (f" ({why})" if why else "")
+    codes = {outcome.result.reason_code for outcome in outcomes}
+    why = _reasons(outcomes) if len(codes) == 1 else ""
+    return f"No better position was found for the {noun}" + (f": {why}" if why else "")
 
 
 NO_BORDERS = "Nothing to optimize: there are no borders between regions; choose another source, or label some faces"

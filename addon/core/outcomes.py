@@ -21,6 +21,8 @@ class Outcome:
     result: object = None
     problem: str = ""
     culprits: tuple = ()  # the elements at which the problem lies, (kind, id), to be shown to the user
+    kind: str = ""  # of the problem: the same where only the elements differ
+    fault: object = None  # a Refusal that names the fault of the mesh that dents the result, or ended its search
     leaving: tuple = ()  # for each side that is to be separated, whether it is the left one
 
     @classmethod
@@ -30,6 +32,7 @@ class Outcome:
     def refuse(self, error):
         """Give it the problem that an error states, and what the error names."""
         self.problem, self.culprits = messages.problem(error), refusals.culprits(error)
+        self.kind = refusals.kind(error)
 
 
 def network_outcomes(place, plan, why_lost):

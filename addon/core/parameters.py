@@ -94,7 +94,7 @@ SETTINGS: dict[str, dict[str, Any]] = {
     "min_salience": {
         "name": "Least Salience",
         "description": "Leave the loop where it is if the best contour is less salient than this, since there is "
-        "nothing concave to find; 0: always move it",
+        "nothing concave to find; 0: move it anyway",
         "default": 0.25,
         "min": 0.0,
         "soft_max": 3.0,

@@ -21,6 +21,7 @@ class ContourNumbers(bpy.types.PropertyGroup):
     place: StringProperty()
     status: StringProperty()
     initial_ratio: FloatProperty()
+    ratios: StringProperty()
     ratio: FloatProperty()
     salience: StringProperty()
     length: FloatProperty()
@@ -265,16 +266,21 @@ def _draw_numbers(box, context, numbers, several):
     if several:
         draw_text(box, context, numbers.reason or numbers.salience, "BLANK1")
         return
-    units = context.scene.unit_settings
-    length = bpy.utils.units.to_string(units.system, "LENGTH", numbers.length * units.scale_length, precision=3)
     lines = (
         numbers.salience,
-        f"Ratio {numbers.initial_ratio:.3g} to {numbers.ratio:.3g}",
-        f"Length {length}",
+        numbers.ratios,
+        f"Length {_length(context, numbers.length)}",
         f"{numbers.faces} faces, {numbers.milliseconds:.1f} ms",
     )
     for line in filter(None, lines):
         box.label(text=line, icon="BLANK1")
+
+
+def _length(context, length):
+    units = context.scene.unit_settings
+    if units.system == "NONE":
+        return messages.readable(length)
+    return bpy.utils.units.to_string(units.system, "LENGTH", length * units.scale_length, precision=3)
 
 
 def _fill(numbers, outcome):
@@ -282,9 +288,10 @@ def _fill(numbers, outcome):
     numbers.status = outcome.result.status
     numbers.initial_ratio = outcome.result.initial_ratio
     numbers.ratio = outcome.result.ratio
+    numbers.ratios = messages.ratios(outcome.result)
     numbers.salience = messages.salience(outcome.result)
     numbers.length = outcome.result.length
-    numbers.reason = messages.reason(outcome.result)
+    numbers.reason = str(outcome.fault) if outcome.fault else messages.reason(outcome.result)
     numbers.faces = outcome.result.statistics["faces"]
     numbers.milliseconds = messages.milliseconds(outcome.result)
 

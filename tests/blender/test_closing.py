@@ -42,7 +42,7 @@ def test_a_quarter_of_a_loop_is_enough(mode, last):
     obj = start(QUARTER, mode=mode)
     assert run() == {"FINISHED"}
     assert marked_edges(obj, "select") == GROOVE_EDGES
-    assert last.message.startswith("1 contour improved. Ratio ")
+    assert last.message.startswith("1 contour improved: clear boundary, ")
 
 
 def test_without_close_a_chain_stays_open():
@@ -65,7 +65,7 @@ def test_the_closed_loop_is_selected_if_nothing_is_better(last):
     obj = start(ring(8)[:9], depth=0)
     assert run() == {"FINISHED"}
     assert marked_edges(obj, "select") == edge_set(ring(8))
-    assert last.message.startswith("1 contour unchanged (")
+    assert last.message.startswith("1 contour unchanged: ")
 
 
 def test_a_single_edge_can_be_closed():

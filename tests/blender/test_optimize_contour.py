@@ -49,7 +49,7 @@ def test_the_selection_moves_into_the_groove(mode, last, capfd):
     assert numbers.ratio < numbers.initial_ratio
     assert numbers.faces > 0
     assert numbers.milliseconds > 0
-    assert last.message.startswith("1 contour improved. Ratio ")
+    assert last.message.startswith("1 contour improved: clear boundary, ")
     assert f"Info: {last.message}" in capfd.readouterr().out
 
 
@@ -98,7 +98,7 @@ def test_an_unchanged_contour_is_output_anyway_and_the_report_says_why(last):
     assert run(output="SEAM") == {"FINISHED"}
     assert marked_edges(obj, "seam") == marked_edges(obj, "select") == GROOVE_EDGES
     assert last.contours[0].status == "unchanged"
-    assert last.message.startswith("1 contour unchanged (")
+    assert last.message.startswith("1 contour unchanged: ")
 
 
 def test_a_redo_that_finds_nothing_shows_the_given_contour():
@@ -116,7 +116,7 @@ def test_several_loops_at_once_move_and_never_cross(last):
     run(output="SEAM")
     assert marked_edges(obj, "seam") == edge_set(ring(5)) | edge_set(ring(15))
     assert [numbers.status for numbers in last.contours] == ["improved", "improved"]
-    assert last.message.startswith("2 contours improved. Mean ratio ")
+    assert last.message.startswith("2 contours improved: clear boundaries, up to ")
 
 
 def test_two_loops_near_one_groove_do_not_both_move_into_it():
@@ -204,7 +204,7 @@ def test_stray_islands_and_pinholes_are_left_out_and_the_report_says_so(output, 
     notch = (GROOVE - 3) * SEGMENTS + 9
     selected_faces_but(obj, *above, 2 * SEGMENTS + 20, notch, notch - SEGMENTS + 1)
     assert run(output=output) == {"FINISHED"}
-    assert last.message.startswith("1 contour improved. ")
+    assert last.message.startswith("1 contour improved: ")
     assert last.message.endswith("Left out of the selection: 2 islands, 2 pinholes")
     if output == "SEPARATE":
         obj.update_from_editmode()

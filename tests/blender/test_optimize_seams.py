@@ -69,7 +69,7 @@ def test_a_closed_seam_moves_into_the_groove(last, capfd):
     assert run() == {"FINISHED"}
     assert marked_edges(obj, "seam") == edge_set(ring(GROOVE))
     assert marked_edges(obj, "select") == marked_edges(obj, "sharp") == set()
-    assert last.message.startswith("1 of 1 seams moved. Ratio ")
+    assert last.message.startswith("1 of 1 seams moved: clear boundary, ")
     assert f"Info: {last.message}" in capfd.readouterr().out
     assert last.contours[0].ratio < last.contours[0].initial_ratio
 

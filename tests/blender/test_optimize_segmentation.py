@@ -66,7 +66,7 @@ def test_a_ragged_border_moves_into_the_groove(source, last, capfd):
     obj = labeled(ragged(GROOVE - 2), source)
     assert run(source) == {"FINISHED"}
     assert get_labels(obj, source).tolist() == straight(GROOVE).tolist()
-    assert last.message.startswith("1 of 1 borders moved. Ratio ")
+    assert last.message.startswith("1 of 1 borders moved: clear boundary, ")
     assert f"Info: {last.message}" in capfd.readouterr().out
 
 

@@ -79,7 +79,7 @@ def test_a_border_across_faces_is_cut_and_the_labels_follow(source, last):
     border = np.array([v.co for v in bm.verts if len({labels[f.index] for f in v.link_faces}) == 2])
     assert np.linalg.norm(border[:, None] - result.positions, axis=2).min(axis=1).max() < 1e-6
     assert pieces(obj, labels) == {0: 1, 1: 1}
-    assert last.message.startswith("1 of 1 borders moved. Ratio ")
+    assert last.message.startswith("1 of 1 borders moved: clear boundary, ")
 
 
 def test_a_border_along_edges_cuts_nothing():

@@ -18,34 +18,49 @@ messages = importlib.import_module("addon.core.messages")
 outcomes_module = importlib.import_module("addon.core.outcomes")
 Outcome, network_outcomes = outcomes_module.Outcome, outcomes_module.network_outcomes
 parameters = importlib.import_module("addon.core.parameters")
+refusals = importlib.import_module("addon.core.refusals")
 
 
-def done(status="improved", before=0.5, after=-1.0, code="", place="Hand", held_back_by=()):
+def done(status="improved", salience=2.5, rings=4, code="", place="Hand", held_back_by=(), fault=None):
     result = SimpleNamespace(
-        status=status, initial_ratio=before, ratio=after, reason_code=code, held_back_by=held_back_by
+        status=status,
+        salience=salience,
+        statistics={"rings": rings, "passes": 3},
+        reason_code=code,
+        held_back_by=held_back_by,
     )
-    return Outcome(place, np.empty((0, 2)), result=result)
+    return Outcome(place, np.empty((0, 2)), result=result, fault=fault)
 
 
 def unmoved(problem, place="Hand"):
     return Outcome(place, np.empty((0, 2)), problem=problem)
 
 
-UNCHANGED = done("unchanged", -2, -2, "cancelled")
-BEST = done("unchanged", -2, -2, "already_best")
+UNCHANGED = done("unchanged", code="cancelled")
+BEST = done("unchanged", code="already_best")
+CLEAR = "1 contour improved: clear boundary, 4 rings away"
 
 
 @pytest.mark.parametrize(
     ("outcomes", "expected"),
     [
-        ([done()], "1 contour improved. Ratio 0.5 to -1"),
-        ([UNCHANGED], "1 contour unchanged (cancelled)"),
-        ([done(), UNCHANGED, done()], "2 contours improved, 1 unchanged (cancelled). Mean ratio -0.3333 to -1.333"),
-        ([UNCHANGED, UNCHANGED], "2 contours unchanged (cancelled)"),
-        ([done(), unmoved("it branches")], "1 contour improved. Ratio 0.5 to -1. Left unchanged: it branches"),
+        ([done()], CLEAR),
+        ([done(salience=0.6, rings=1)], "1 contour improved: faint boundary, 1 ring away"),
+        ([done(salience=-1.0, rings=0)], "1 contour improved: nothing concave here, less than a ring away"),
+        ([UNCHANGED], "1 contour unchanged: cancelled"),
+        (
+            [done(), UNCHANGED, done(rings=6)],
+            "2 contours improved: clear boundaries, up to 6 rings away; 1 unchanged: cancelled",
+        ),
+        (
+            [done(), done(salience=0.7), done(rings=2)],
+            "3 contours improved: 2 clear boundaries, 1 faint boundary, up to 4 rings away",
+        ),
+        ([UNCHANGED, UNCHANGED], "2 contours unchanged: cancelled"),
+        ([done(), unmoved("it branches")], CLEAR + ". Left unchanged: it branches"),
         (
             [done(), unmoved("it branches", "Foot"), unmoved("it is open")],
-            "1 contour improved. Ratio 0.5 to -1. Left unchanged: Foot: it branches; Hand: it is open",
+            CLEAR + ". Left unchanged: Foot: it branches; Hand: it is open",
         ),
         (
             [unmoved("it is open"), unmoved("it is open", "Foot"), unmoved("it branches")],
@@ -70,6 +85,61 @@ def test_every_native_reason_has_its_own_text():
 def test_limiting_contours_are_counted_not_numbered(held_back_by, words):
     why = messages.reason(done("unchanged", code="already_best", held_back_by=held_back_by).result)
     assert why.endswith(f"; {words} nearby limited the search")
+
+
+def test_no_reason_is_given_twice():
+    """Whatever else differs between contours: the elements that a problem names, and who was in the way."""
+    held = [done("unchanged", code="already_best", held_back_by=others) for others in ((), (1,), (2, 1))]
+    message = messages.summary([*held, BEST])
+    assert message.count("already the best") == 1
+    assert message.endswith("; 2 other contours nearby limited the search")
+    single = [Outcome("Hand", np.empty((0, 2))) for _ in range(46)]
+    for i, outcome in enumerate(single):
+        outcome.refuse(refusals.Refusal(messages.single_edge([i, i + 1]), [i], code="single_edge"))
+    message = messages.summary(single)
+    assert message.count("nothing between its ends") == 1
+    assert message.endswith(" (and 45 more like it)")
+    native = mrc.optimize_all(surface_of(meshes.torus(14, 30)), [[3, 4, 4], [7, 8, 8]], errors="return")
+    refused = [Outcome("Hand", np.empty((0, 2))) for _ in native]
+    for outcome, error in zip(refused, native, strict=True):
+        outcome.refuse(error)
+    assert messages.summary(refused).count("twice") == 1
+
+
+def test_a_fault_of_the_mesh_comes_before_what_the_search_says_of_it():
+    fault = refusals.Refusal("faces are not joined here", [3])
+    stays = done("unchanged", code="already_best", fault=fault)
+    assert messages.summary([stays, stays]) == "2 contours unchanged: faces are not joined here"
+    moved = messages.summary([done(fault=fault), done(fault=fault)])
+    assert moved.endswith(". A fault of the mesh may have dented a contour: faces are not joined here")
+    assert moved.count("joined") == 1
+
+
+def test_nothing_advises_to_lower_what_keeps_contours_off_tips():
+    for text in [*messages._REASONS.values(), *messages._PROBLEMS.values()]:
+        assert "Least Salience" not in text
+        assert "Whole Surface" not in text or "clear Whole Surface" in text
+
+
+@pytest.mark.parametrize(
+    ("number", "text"),
+    [
+        (848912.0, "849000"),
+        (-0.33333, "-0.333"),
+        (1.0, "1"),
+        (0.0, "0"),
+        (2.5e-7, "0.00000025"),
+        (1e15, "1" + 15 * "0"),
+    ],
+)
+def test_numbers_have_three_digits_and_no_exponent(number, text):
+    assert messages.readable(number) == text
+
+
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+def test_ratios_are_shown_without_the_mesh_s_unit(scale):
+    result = SimpleNamespace(initial_ratio=0.5 / scale, ratio=-1.25 / scale, scales=SimpleNamespace(h=0.2 * scale))
+    assert messages.ratios(result) == "Ratio 0.1 to -0.25 (per edge)"
 
 
 def test_messages_name_settings_as_the_panel_does():
@@ -143,13 +213,16 @@ SPLIT = "a border whose move would join or split regions"
 @pytest.mark.parametrize(
     ("outcomes", "expected"),
     [
-        ([done(), UNCHANGED, done()], "2 of 3 seams moved. Mean ratio -0.3333 to -1.333"),
-        ([UNCHANGED, UNCHANGED], "No better position was found for the seams (cancelled)"),
+        ([done(), UNCHANGED, done()], "2 of 3 seams moved: clear boundaries, up to 4 rings away"),
+        ([UNCHANGED, UNCHANGED], "No better position was found for the seams: cancelled"),
         ([UNCHANGED, BEST], "No better position was found for the seams"),
-        ([done(), unmoved(SPLIT), unmoved(SPLIT)], f"1 of 3 seams moved. Ratio 0.5 to -1. Left unchanged: {SPLIT}"),
+        (
+            [done(), unmoved(SPLIT), unmoved(SPLIT)],
+            f"1 of 3 seams moved: clear boundary, 4 rings away. Left unchanged: {SPLIT}",
+        ),
         (
             [UNCHANGED, unmoved("no", "Foot")],
-            "No better position was found for the seams (cancelled). Left unchanged: Foot: no",
+            "No better position was found for the seams: cancelled. Left unchanged: Foot: no",
         ),
         ([unmoved("there are no face sets")], "Left unchanged: there are no face sets"),
     ],
@@ -180,7 +253,7 @@ def test_warnings_follow_without_repetition():
     warning = messages.inside_out("Hand")
     assert "Recalculate Outside (Shift N)" in warning
     message = messages.summary([done(), unmoved("it branches")], [warning, warning])
-    assert message == f"1 contour improved. Ratio 0.5 to -1. Left unchanged: it branches. {warning}"
+    assert message == f"{CLEAR}. Left unchanged: it branches. {warning}"
 
 
 def test_a_contour_without_output_counts_as_unchanged():
