@@ -40,6 +40,10 @@ class FaceSelection:
         self._hidden[hidden_faces] = True
         self.selected = selected & ~self._hidden
 
+    def vertices(self):
+        """Return the vertices of the selected faces."""
+        return np.unique(self._corner_vertices[self.selected[self._corner_faces]])
+
     def borders(self):
         """Return the borders without stray islands and pinholes."""
         everything = _walked(self, self.selected)

@@ -6,8 +6,11 @@ All of it may run in any thread.
 
 from dataclasses import dataclass
 
-from . import messages, native
+import numpy as np
+
+from . import mesh_faults, messages, native
 from .native_constraints import OutsideBand, native_keywords
+from .refusals import vertices_of
 
 
 def optimize_on(surface, vertices, closed=True, around_limb=False, progress=None, **settings):
@@ -53,6 +56,11 @@ def fraction_of(progress, i, count):
     return progress and (lambda fraction: progress((i + fraction) / count))
 
 
+_POOR = 0.5  # the salience below which a contour seldom lies where it should
+# What the native module says of contours that faults of the mesh are in the way of.
+_CODES_OF_FAULTS = ("on_border", "non_manifold", "no_path_around")
+
+
 @dataclass
 class ContourSearch:
     """The contours of one mesh, which are searched together."""
@@ -63,6 +71,13 @@ class ContourSearch:
     surface: object = None  # the native one made from them
     constraints: object = None  # what the mesh's layers ask of the contours
     outside: tuple = ()  # required vertices where nothing is searched
+
+    def refuse(self, outcome, error):
+        """Gives an outcome the problem that an error states, or the fault of the mesh that is behind it."""
+        behind = None
+        if self.arrays is not None and getattr(error, "code", "") in _CODES_OF_FAULTS:
+            behind = mesh_faults.fault_near(self.arrays, [*outcome.vertices, *vertices_of(error)])
+        outcome.refuse(behind or error)
 
     def sound(self):
         """The contours that can be handed to the search."""
@@ -97,7 +112,8 @@ def optimize_contours(searches, settings, progress=None):
 
 def complete(search, progress=None):
     """Closes the chains that are to be closed, and turns contours so that what is painted lies to their left."""
-    _close(search.surface, search.sound(), progress)
+    _refuse_split_loops(search)
+    _close(search, search.sound(), progress)
     if search.constraints is not None and search.constraints.density is not None:
         _orient_by_density(search)
 
@@ -109,19 +125,28 @@ def find_problems(search, outcomes):
     for outcome in outcomes:
         error = mrc.check_contour(search.surface, outcome.vertices, closed=outcome.closed, barriers=barriers)
         if error is not None:
-            outcome.refuse(error)
+            search.refuse(outcome, error)
 
 
-def _close(surface, outcomes, progress):
+def _refuse_split_loops(search):
+    """What is a loop to the eye, but a chain on a mesh that is split there, has no end to hold."""
+    for outcome in search.sound():
+        if search.arrays is not None and not outcome.closed:
+            fault = mesh_faults.ends_not_joined(search.arrays, outcome.vertices)
+            if fault is not None:
+                outcome.refuse(fault)
+
+
+def _close(search, outcomes, progress):
     """Closes the chains that are to be closed. Loops that meet are no contours beside each other: the first has it."""
     taken = {vertex for outcome in outcomes if not outcome.closing for vertex in outcome.vertices.tolist()}
     closing = [outcome for outcome in outcomes if outcome.closing]
     for i, outcome in enumerate(closing):
         own_progress = fraction_of(progress, i, len(closing))
         try:
-            loop = native.module().close_contour(surface, outcome.vertices, progress=own_progress)
+            loop = native.module().close_contour(search.surface, outcome.vertices, progress=own_progress)
         except ValueError as error:
-            outcome.refuse(error)
+            search.refuse(outcome, error)
             continue
         if taken.isdisjoint(loop.tolist()):
             outcome.vertices, outcome.closed = loop, True
@@ -161,6 +186,29 @@ def _optimize_together(search, outcomes, settings, progress):
     )
     for outcome, result in zip(outcomes, found):
         if isinstance(result, ValueError):
-            outcome.refuse(result)
+            search.refuse(outcome, result)
         else:
             outcome.result = result
+            outcome.fault = _fault_met(search, outcome)
+            if outcome.fault and result.status == "unchanged":
+                outcome.culprits = outcome.fault.elements
+
+
+def _fault_met(search, outcome):
+    """The fault of the mesh that dents a result or has ended the search around a contour that stays; None: none has.
+
+    A result that keeps clear of what its band has met needs no look at the mesh.
+    """
+    result = outcome.result
+    if search.arrays is None or result.status == "cancelled":
+        return None
+    if result.status == "unchanged" and result.salience < _POOR:
+        faces = native.module().band(search.surface, result, options=native.module().Options(width=2))
+        beside = mesh_faults.vertices_of(search.arrays, faces)
+        return mesh_faults.fault_near(search.arrays, np.concatenate([outcome.vertices, result.non_manifold, beside]))
+    if not len(result.non_manifold):
+        return None
+    ends = np.unique(result.edge_vertices)
+    beside = mesh_faults.vertices_of(search.arrays, mesh_faults.faces_at(search.arrays, ends))
+    touched = np.intersect1d(beside, result.non_manifold)
+    return mesh_faults.fault_near(search.arrays, touched) if len(touched) else None

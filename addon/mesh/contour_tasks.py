@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import bpy
 import numpy as np
 
-from ..core import edge_paths, messages
+from ..core import edge_paths, mesh_faults, messages
 from ..core.outcomes import Outcome
 from ..core.refusals import Refusal
 from ..core.search import ContourSearch
@@ -15,12 +15,15 @@ from . import constraint_layers
 from .arrays import (
     is_inside_out,
     is_unevenly_scaled,
+    read_arrays,
     read_selected_edges,
     read_selected_faces,
     synchronize,
     with_mirror_images,
 )
 from .surface_cache import arrays_and_surface_of
+
+SINGLE_EDGE = "single_edge"  # a kind of problem
 
 
 @dataclass
@@ -63,7 +66,17 @@ def read_task(obj, face_mode, close=False):
         refusal = None if outcome.problem else _refusal(outcome)
         if refusal:
             outcome.refuse(refusal)
+    _name_faults(task, [outcome for outcome in task.outcomes if outcome.kind == SINGLE_EDGE])
     return task
+
+
+def _name_faults(task, single_edges):
+    """Give single edges the fault of the mesh that has made a loop to the eye fall into them, if there is one."""
+    if single_edges:
+        vertices = np.concatenate([outcome.vertices for outcome in single_edges])
+        fault = mesh_faults.fault_near(read_arrays(task.obj), vertices)
+        for outcome in single_edges if fault else ():
+            outcome.refuse(fault)
 
 
 def warnings(tasks):
@@ -108,7 +121,9 @@ def _read_faces(obj):
     pieces = edge_paths.sort_directed_edges(edges) if mirrored else found
     outcomes = _outcomes(obj.name, pieces)
     if not outcomes and selection.selected.any():
-        outcomes.append(Outcome(obj.name, edges, problem=messages.NO_BORDER))
+        outcomes.append(Outcome(obj.name, edges))
+        fault = mesh_faults.fault_near(read_arrays(obj), selection.vertices())
+        outcomes[-1].refuse(fault or Refusal(messages.NO_BORDER))
     task = ContourTask(outcomes, True, obj=obj, mirrored=mirrored, asymmetric=asymmetric)
     task.left_out = Counter(island=found.island_count, pinhole=found.pinhole_count)
     task.strays = found.islands, found.pinholes
@@ -147,5 +162,5 @@ def _refuse_loose(outcome, loose):
 def _refusal(outcome):
     """Return why a contour cannot be searched at all; None if it can."""
     if len(outcome.edges) == 1 and not outcome.closing:
-        return Refusal(messages.single_edge(outcome.vertices), outcome.vertices)
+        return Refusal(messages.single_edge(outcome.vertices), outcome.vertices, code=SINGLE_EDGE)
     return None

@@ -77,8 +77,8 @@ def _splitting_problem(outcome, sides, leaving, options):
 def write(context, tasks, options):
     """Make the output of all contours that have a result and no problem; select required vertices outside the bands.
 
-    Return whether anything was written or selected. A contour around which nothing could be searched does not count:
-    it is selected already.
+    Return whether anything was written or selected. A contour around which nothing could be searched, or that a fault
+    of the mesh holds, does not count: it is selected already.
     """
     outside = {task.obj: [("vertex", vertex) for vertex in task.outside] for task in tasks if len(task.outside)}
     possible = any(_is_possible(outcome, task, options) for task in tasks for outcome in task.done())
@@ -91,7 +91,8 @@ def write(context, tasks, options):
 
 def _is_possible(outcome, task, options):
     changes_mesh = options.output not in ("SELECT", "CUT")
-    return changes_mesh or task.mirrored or outcome.closing or outcome.result.reason_code != "no_room"
+    stuck = outcome.result.status == "unchanged" and (outcome.result.reason_code == "no_room" or outcome.fault)
+    return changes_mesh or task.mirrored or outcome.closing or not stuck
 
 
 def _write(context, tasks, options):

@@ -24,7 +24,7 @@ from made_meshes import (
     torus,
     torus_ring,
 )
-from minimum_ratio_contours.core import native
+from minimum_ratio_contours.core import mesh_faults, native
 
 
 def cancelled(obj, **properties):
@@ -216,8 +216,7 @@ def test_an_edge_of_three_faces(output, last):
     obj = with_fin()
     select(obj, pairs(ring(5)))
     assert shown_by(obj, output=output) >= set(ring(5)[:2])
-    assert "an edge of more than two faces" in last.message
-    assert any(str(vertex) in last.message for vertex in ring(5)[:2])
+    assert last.message == f"Left unchanged: {mesh_faults.WALLED}"
 
 
 def test_faces_whose_normals_disagree(last):
@@ -231,8 +230,7 @@ def test_faces_whose_normals_disagree(last):
     shown = shown_by(obj)
     assert shown & set(ring(5)[3:5])
     assert len(shown) <= 4
-    assert f"beside vertex {ring(5)[3]}" in last.message or f"beside vertex {ring(5)[4]}" in last.message
-    assert "faces whose normals disagree: move the contour off it" in last.message
+    assert last.message == f"Left unchanged: {mesh_faults.FLIPPED}"
 
 
 def test_loose_edges_attached_to_a_surface(last):
