@@ -208,8 +208,7 @@ def test_a_network_that_is_already_optimal(last):
     before = mesh_state(obj)
     assert run() == {"FINISHED"}  # finished, so that the redo panel can change the settings
     assert last.message == (
-        "No better position was found for the seams "
-        "(it is already the best nearby: raise Width or Reach to look farther)"
+        "No better position was found for the seams: already the best nearby: raise Width or Reach to look farther"
     )
     assert mesh_state(obj) == before
 

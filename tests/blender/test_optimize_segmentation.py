@@ -230,7 +230,7 @@ def test_a_border_that_is_already_optimal(last):
     before = mesh_state(obj)
     assert run("MATERIAL") == {"FINISHED"}  # finished, so that the redo panel can change the settings
     assert mesh_state(obj) == before
-    assert last.message.startswith("No better position was found for the borders (it is already the best nearby")
+    assert last.message.startswith("No better position was found for the borders: already the best nearby")
 
 
 def test_an_empty_mesh():

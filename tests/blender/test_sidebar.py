@@ -109,7 +109,7 @@ def test_the_panel_shows_the_last_result(last):
     bpy.ops.mesh.optimize_contour()
     (numbers,) = last.contours
     assert numbers.status == "unchanged"
-    assert numbers.reason == "it is already the best nearby: raise Width or Reach to look farther"
+    assert numbers.reason == "already the best nearby: raise Width or Reach to look farther"
     assert numbers.reason in last.message
 
 
