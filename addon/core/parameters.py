@@ -122,11 +122,12 @@ SETTINGS: dict[str, dict[str, Any]] = {
         "name": "Ends",
         "description": "What is held at the ends of an open chain",
         "items": (
+            ("AUTO", "Automatic", "The first and last edges, but ends on the mesh border slide along it"),
             ("EDGES", "Edges", "The first and last edges, so that the chain keeps its direction at the ends"),
             ("VERTICES", "Vertices", "Only the end vertices"),
             ("BORDER", "Slide on Border", "The end vertices, but those on the mesh border slide along it"),
         ),
-        "default": "EDGES",
+        "default": "AUTO",
     },
 }
 
@@ -274,7 +275,7 @@ def native_options(**settings):
         "feature_clamp": values["feature_clamp"] if values["feature_clamp"] < 1 else None,
         "min_salience": values["min_salience"] if values["min_salience"] > 0 else None,
         "flow": values["flow"].lower(),
-        "ends": values["ends"].lower(),
+        "ends": "edges_or_border" if values["ends"] == "AUTO" else values["ends"].lower(),
         "regular_iterations": values["regular_iterations"] if values["refinement"] > 0 else 0,
     }
 

@@ -32,7 +32,8 @@ using Names = std::array<std::pair<const char*, Enum>, N>;
 
 constexpr Names<FlowKind, 3> flow_names{
     {{"gates", FlowKind::gates}, {"arc_length", FlowKind::arc_length}, {"harmonic", FlowKind::harmonic}}};
-constexpr Names<Ends, 3> ends_names{{{"edges", Ends::edges}, {"vertices", Ends::vertices}, {"border", Ends::border}}};
+constexpr Names<Ends, 4> ends_names{
+    {{"edges", Ends::edges}, {"vertices", Ends::vertices}, {"border", Ends::border}, {"edges_or_border", Ends::edges_or_border}}};
 constexpr Names<RegionSide, 2> region_side_names{{{"left", RegionSide::left}, {"right", RegionSide::right}}};
 constexpr Names<LengthMeasure, 2> length_measure_names{{{"arc", LengthMeasure::arc}, {"edges", LengthMeasure::edges}}};
 constexpr Names<Denominator, 2> denominator_names{{{"length", Denominator::length}, {"arcs", Denominator::arcs}}};
@@ -144,7 +145,8 @@ const std::vector<Row>& rows() {
         choice("flow", flow_names, &Options::flow, "'gates', 'arc_length' or 'harmonic' (4.2.3)"),
         choice("ends", ends_names, &Options::ends,
                "of open curves: 'edges' holds the first and last edge, 'vertices' their ends,\n"
-               "'border' lets ends on the mesh border slide along it (4.6)"),
+               "'border' and 'edges_or_border' let ends on the mesh border slide along it,\n"
+               "and hold the vertices or the edges of others (4.6)"),
         field("max_turn", &Options::max_turn,
               "radians in the tangent plane, above 0 and at most pi; sharper turns are pruned (3.2)"),
         field("region_weight", &Options::region_weight, "weight of the change of the density enclosed, in K / L0 (6.1.2)"),

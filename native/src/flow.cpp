@@ -70,16 +70,9 @@ std::vector<double> fixed_values(const Patch& patch, const Band& band, const Opt
     fixed[patch.contour.front()] = 0.0;
     if (patch.closed) return fixed;
     fixed[patch.contour.back()] = 1.0;
-    if (options.ends != Ends::border) return fixed;
-    const std::vector<int> first = border_piece(patch, band, patch.contour.front());
-    const std::vector<int> last = border_piece(patch, band, patch.contour.back());
-    if (std::ranges::find(first, patch.contour.back()) != first.end()) return fixed;
-    if (!patch.first_end_held) {
-        for (const int v : first) fixed[v] = 0.0;
-    }
-    if (!patch.last_end_held) {
-        for (const int v : last) fixed[v] = 1.0;
-    }
+    const int front = patch.contour.front(), back = patch.contour.back();
+    for (const int v : sliding_piece(patch, band, options, front, back, patch.first_end_held)) fixed[v] = 0.0;
+    for (const int v : sliding_piece(patch, band, options, back, front, patch.last_end_held)) fixed[v] = 1.0;
     return fixed;
 }
 
@@ -135,6 +128,13 @@ std::vector<int> border_piece(const Patch& patch, const Band& band, int vertex) 
         }
     }
     if (piece.size() == 1) piece.clear();
+    return piece;
+}
+
+std::vector<int> sliding_piece(const Patch& patch, const Band& band, const Options& options, int end, int other, bool held) {
+    if (held || (options.ends != Ends::border && options.ends != Ends::edges_or_border)) return {};
+    std::vector<int> piece = border_piece(patch, band, end);
+    if (std::ranges::find(piece, other) != piece.end()) piece.clear();
     return piece;
 }
 

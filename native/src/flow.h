@@ -29,6 +29,10 @@ Flow make_flow(const Patch& patch, const Band& band, const Options& options, con
 /// The vertices of the piece of mesh border within the band that holds a vertex; empty where the vertex is not on the border.
 std::vector<int> border_piece(const Patch& patch, const Band& band, int vertex);
 
+/// The piece of mesh border along which an end of an open curve may slide; empty where the end stays, as with the other end on the
+/// same piece, or where it is held.
+std::vector<int> sliding_piece(const Patch& patch, const Band& band, const Options& options, int end, int other, bool held);
+
 /// The strip boundaries of 4.2.3 from the rightmost to the leftmost: the contour, the boundaries of every round, and the refined
 /// strips between them that cover the vertices left over. Closed lists of patch vertices, or open ones from the first vertex of
 /// an open curve to its last; neighbors may share vertices but never cross. Every vertex of the band lies on at least one, except

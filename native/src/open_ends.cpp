@@ -14,11 +14,10 @@ std::vector<char> end_points(const GraphInput& input, const SurfacePoint& end, c
     const AmbientGraph& ambient = input.ambient;
     const Patch& patch = input.patch;
     std::vector<char> allowed(ambient.point_count(), 0);
-    if (const int own = ambient.point_at(patch, end); own >= 0) allowed[own] = 1;
-    if (held || input.options.ends != Ends::border || !end.is_vertex() || !other.is_vertex()) return allowed;
-    const std::vector<int> piece = border_piece(patch, input.band, ambient.local.at(end.a));
-    if (std::ranges::find(piece, ambient.local.at(other.a)) != piece.end()) return allowed;
-    for (const int v : piece) {
+    if (const int point = ambient.point_at(patch, end); point >= 0) allowed[point] = 1;
+    if (!end.is_vertex() || !other.is_vertex()) return allowed;
+    const int own = ambient.local.at(end.a), others = ambient.local.at(other.a);
+    for (const int v : sliding_piece(patch, input.band, input.options, own, others, held)) {
         allowed[ambient.point_of_vertex[v]] = 1;
         for (const auto h : patch.mesh.voh_range(PatchMesh::VertexHandle(v))) {
             const int first = patch.border_edge[h.idx() / 2] ? ambient.first_point_of_edge[h.idx() / 2] : -1;

@@ -31,6 +31,7 @@ Options Options::recommended() {
     options.anchor = 0.5;
     options.feature_clamp = 0.9;
     options.crease = 0.5;
+    options.ends = Ends::edges_or_border;
     options.min_salience = 0.25;
     options.max_turn = 100.0 * (std::numbers::pi / 180.0);  // contours climb quads in stairs
     return options;

@@ -23,7 +23,8 @@ class RequiredChords {
     RequiredElements find() {
         for (const int v : input_.constraints.required_vertices) elements_.require(place_of(points_, point_of(v)));
         for (const auto& [a, b] : input_.constraints.required_edges) require_edge(a, b);
-        if (!patch_.closed && input_.options.ends == Ends::edges) require_end_edges();
+        const Ends ends = input_.options.ends;
+        if (!patch_.closed && (ends == Ends::edges || ends == Ends::edges_or_border)) require_end_edges();
         return std::move(elements_);
     }
 
@@ -85,16 +86,23 @@ class RequiredChords {
         return own;
     }
 
+    bool slides(const SurfacePoint& end, const SurfacePoint& other, bool held) const {
+        if (!other.is_vertex()) return false;
+        const int own = ambient_.local.at(end.a), others = ambient_.local.at(other.a);
+        return !sliding_piece(patch_, input_.band, input_.options, own, others, held).empty();
+    }
+
     /// Open curves with their first and last edge held (4.6). A refined one whose ends are no whole edges holds its end points.
     void require_end_edges() {
         const auto& points = input_.given;
+        const SurfacePoint &begin = points.front(), &finish = points.back();
         const auto hold = [&](const SurfacePoint& end, const SurfacePoint& next) {
             if (!end.is_vertex()) return;
             const int other = next.is_vertex() ? next.a : next.a == end.a ? next.b : next.b == end.a ? next.a : -1;
             if (other >= 0 && surface_.real_edge(end.a, other)) require_edge(end.a, other);
         };
-        hold(points.front(), points[1]);
-        hold(points.back(), points[points.size() - 2]);
+        if (!begin.is_vertex() || !slides(begin, finish, patch_.first_end_held)) hold(begin, points[1]);
+        if (!finish.is_vertex() || !slides(finish, begin, patch_.last_end_held)) hold(finish, points[points.size() - 2]);
     }
 };
 

@@ -161,7 +161,7 @@ def random_settings(rng):
         "merge": float(rng.choice([0.0, 0.1, 0.4])),
         "fill_holes": bool(rng.random() < 0.5),
         "keep_old": bool(rng.random() < 0.5),
-        "ends": str(rng.choice(["EDGES", "VERTICES", "BORDER"])),
+        "ends": str(rng.choice(["AUTO", "EDGES", "VERTICES", "BORDER"])),
         "width": int(rng.integers(1, 6)),
         "min_salience": float(rng.choice([0.0, 0.0, 0.0, 0.25])),
         "length_bias": float(rng.choice([0.0, 0.0, 2.0])),

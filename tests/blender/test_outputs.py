@@ -194,7 +194,7 @@ def cylinder_with_a_valley():
     return obj
 
 
-@pytest.mark.parametrize(("ends", "held"), [("EDGES", 2), ("VERTICES", 1), ("BORDER", 0)])
+@pytest.mark.parametrize(("ends", "held"), [("EDGES", 2), ("VERTICES", 1), ("BORDER", 0), ("AUTO", 0)])
 def test_the_setting_ends_says_what_is_held(ends, held):
     obj = cylinder_with_a_valley()
     edit(obj)
@@ -205,7 +205,7 @@ def test_the_setting_ends_says_what_is_held(ends, held):
     assert vertices & set(upright(VALLEY))
     first = upright(BESIDE)[:held]
     assert vertices >= set(first)
-    if ends == "BORDER":
+    if ends in ("BORDER", "AUTO"):
         assert path == {frozenset(pair) for pair in pairs(upright(VALLEY), closed=False)}
     if ends == "EDGES":
         assert frozenset(first) in path

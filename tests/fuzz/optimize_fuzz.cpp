@@ -28,7 +28,7 @@ Options generate_options(FuzzedDataProvider& data) {
     o.iterations = data.ConsumeIntegralInRange(0, 2);
     o.regular_iterations = data.ConsumeIntegralInRange(0, 1);
     o.flow = data.PickValueInArray({mrc::FlowKind::gates, mrc::FlowKind::arc_length, mrc::FlowKind::harmonic});
-    o.ends = data.PickValueInArray({mrc::Ends::edges, mrc::Ends::vertices, mrc::Ends::border});
+    o.ends = data.PickValueInArray({mrc::Ends::edges, mrc::Ends::vertices, mrc::Ends::border, mrc::Ends::edges_or_border});
     o.feature = data.PickValueInArray({mrc::Feature::valley, mrc::Feature::ridge});
     if (data.ConsumeBool()) {
         o.denominator = mrc::Denominator::arcs;

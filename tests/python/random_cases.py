@@ -131,11 +131,14 @@ class Case:
 
     def ends(self):
         """The chords that may begin, and those that may end, a path."""
-        pieces = self.border_pieces() if self.options["ends"] == "border" else []
         first, last = self.given[0], self.given[-1]
-        at_first = next((piece for piece in pieces if first in piece and last not in piece), {first})
-        at_last = next((piece for piece in pieces if last in piece and first not in piece), {last})
+        at_first, at_last = self.sliding_piece(first, last) or {first}, self.sliding_piece(last, first) or {last}
         return (lambda p, q: p in at_first), (lambda p, q: q in at_last)
+
+    def sliding_piece(self, end, other):
+        """The piece of mesh border along which an end may slide; None where it may not."""
+        pieces = self.border_pieces() if self.options["ends"] in ("border", "edges_or_border") else []
+        return next((piece for piece in pieces if end in piece and other not in piece), None)
 
     def border_pieces(self):
         """The pieces of the mesh border in the band, as sets of points."""
@@ -150,11 +153,14 @@ class Case:
         return pieces
 
     def required(self):
-        """The required vertices and edges; with ends="edges" these include the first and last edge of an open
-        contour."""
+        """The required vertices and edges; with ends="edges" these include the first and last edge of an open contour,
+        with "edges_or_border" only where the end does not slide along the border."""
         edges = [tuple(map(int, edge)) for edge in self.constraints.get("required_edges", ())]
-        if not self.closed and self.options["ends"] == "edges":
-            edges += [tuple(map(int, self.contour[:2])), tuple(map(int, self.contour[-2:]))]
+        if not self.closed and self.options["ends"] in ("edges", "edges_or_border"):
+            first, last = self.given[0], self.given[-1]
+            held = [not self.sliding_piece(first, last), not self.sliding_piece(last, first)]
+            at_ends = [tuple(map(int, self.contour[:2])), tuple(map(int, self.contour[-2:]))]
+            edges += [edge for edge, stays in zip(at_ends, held) if stays]
         return [int(v) for v in self.constraints.get("required_vertices", ())], list(dict.fromkeys(edges))
 
     def holds(self, points):

@@ -93,7 +93,7 @@ def passes(points, closed, constraints):
 def check_ends(task, points):
     """An open contour keeps its ends and, with 'edges', its first and last edge, unless these are chords across a face.
     Only an end on the border may slide."""
-    if task.closed or task.options.ends == "border":
+    if task.closed or task.options.ends in ("border", "edges_or_border"):
         return
     assert (points[0], points[-1]) == (task.given[0], task.given[-1])
     if task.options.ends == "edges":

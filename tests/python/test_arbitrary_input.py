@@ -207,7 +207,8 @@ def test_arbitrary_points_on_edges(ends, parameters, k):
 # ---- options
 
 NAMES = sorted(name for name, value in vars(mrc.Options).items() if isinstance(value, property))
-CHOICES = ["gates", "arc_length", "valley", "ridge", "left", "right", "edges", "vertices", "border", "arc", "arcs"]
+CHOICES = ["gates", "arc_length", "valley", "ridge", "left", "right", "arc", "arcs"]
+CHOICES += ["edges", "vertices", "border", "edges_or_border"]
 values = st.one_of(anything, st.floats(0, 3), st.floats(0), st.integers(0, 4), st.sampled_from(CHOICES))
 
 

@@ -11,9 +11,9 @@ enum class FlowKind { gates, arc_length, harmonic };
 /// What contours follow: concave creases, or crests (3.4, footnote).
 enum class Feature { valley, ridge };
 enum class RegionSide { left, right };
-/// What is held at the ends of an open curve (4.6): the first and the last edge, their end vertices, or these except where they
-/// lie on the mesh border, along which they slide.
-enum class Ends { edges, vertices, border };
+/// What is held at the ends of an open curve (4.6): the first and the last edge, or their end vertices. With the other two, ends on
+/// the mesh border slide along it: else the vertices are held with `border`, the edges with `edges_or_border`.
+enum class Ends { edges, vertices, border, edges_or_border };
 /// What length_bias counts, and what the ratio divides by: lengths, or numbers of edges (appendix A).
 enum class LengthMeasure { arc, edges };
 enum class Denominator { length, arcs };
