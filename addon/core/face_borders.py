@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from . import edge_paths
+from .faces import Faces
 
 _STRAY = 0.02  # of the area of the selected faces: smaller islands and holes are left out,
 _OUTSIZED = 0.25  # where they are also smaller than this fraction of the largest island or hole
@@ -29,16 +30,12 @@ class FaceBorders:
     pinhole_count: int = 0
 
 
-class FaceSelection:
-    """The selected faces of a mesh, given by its arrays as in topology.make_topology."""
+class FaceSelection(Faces):
+    """The selected faces of a mesh."""
 
     def __init__(self, points, edges, face_offsets, corner_vertices, corner_edges, hidden_faces, selected):
-        self._points, self._edges, self._offsets = points, edges, face_offsets
-        self._corner_vertices, self._corner_edges = corner_vertices, corner_edges
-        self._corner_faces = np.repeat(np.arange(len(selected)), np.diff(face_offsets))
-        self._hidden = np.zeros(len(selected), dtype=bool)
-        self._hidden[hidden_faces] = True
-        self.selected = selected & ~self._hidden
+        super().__init__(points, edges, face_offsets, corner_vertices, corner_edges, hidden_faces)
+        self.selected = selected & ~self.hidden
 
     def vertices(self):
         """Return the vertices of the selected faces."""
@@ -59,66 +56,51 @@ class FaceSelection:
 
     def border(self, selected):
         """Return the edges between selected and visible other faces, by number; see edge_paths.region_border."""
-        return edge_paths.region_border(self._offsets, self._corner_edges, selected, self._hidden, len(self._edges))
+        return edge_paths.region_border(self.offsets, self.corner_edges, selected, self.hidden, len(self.edges))
 
     def directed(self, selected, border):
         """Return the corner of the selected face at which each border edge begins."""
-        corners = np.flatnonzero(selected[self._corner_faces])
-        first = np.full(len(self._edges), -1)
-        first[self._corner_edges[corners]] = corners
+        corners = np.flatnonzero(selected[self.corner_faces])
+        first = np.full(len(self.edges), -1)
+        first[self.corner_edges[corners]] = corners
         return first[border]
 
     def pairs(self, corners):
         """Return the (n, 2) vertices of the edges that begin at corners."""
-        return np.column_stack([self._corner_vertices[corners], self._corner_vertices[self._next(corners)]])
+        return np.column_stack([self.corner_vertices[corners], self.corner_vertices[self.next_corners(corners)]])
 
     def successors(self, selected, border, corners):
         """Return which border edge follows each one, -1 where the faces end; None if faces do not fit together."""
-        place = np.full(len(self._edges), -1)
+        place = np.full(len(self.edges), -1)
         place[border] = np.arange(len(border))
-        first, last, uses = self._corners_of_edges()
+        first, last = self.edge_corners
         following = np.full(len(border), -1)
         turning = np.arange(len(border))
-        here = self._next(corners)
-        heads = self._corner_vertices[here]
+        here = self.next_corners(corners)
+        heads = self.corner_vertices[here]
         while len(turning):
-            edges = self._corner_edges[here]
+            edges = self.corner_edges[here]
             following[turning] = place[edges]
-            on = (place[edges] < 0) & (uses[edges] > 1)  # else it is found, or the border of the mesh
+            on = (place[edges] < 0) & (self.uses[edges] > 1)  # else it is found, or the border of the mesh
             turning, here, heads, edges = turning[on], here[on], heads[on], edges[on]
             twins = first[edges] + last[edges] - here
-            on = selected[self._corner_faces[twins]]  # else it is hidden
-            if np.any(uses[edges] > 2) or np.any(self._corner_vertices[self._next(twins[on])] != heads[on]):
+            on = selected[self.corner_faces[twins]]  # else it is hidden
+            if np.any(self.uses[edges] > 2) or np.any(self.corner_vertices[self.next_corners(twins[on])] != heads[on]):
                 return None
-            turning, here, heads = turning[on], self._next(twins[on]), heads[on]
+            turning, here, heads = turning[on], self.next_corners(twins[on]), heads[on]
         return following if _is_injective(following) else None
-
-    def _next(self, corners):
-        """Return the corner after each one in its face."""
-        ends = self._offsets[self._corner_faces[corners] + 1]
-        return np.where(corners + 1 < ends, corners + 1, self._offsets[self._corner_faces[corners]])
-
-    def _corners_of_edges(self):
-        """Return for each edge its first and last corner, and how many it has."""
-        count, edges = len(self._corner_edges), self._corner_edges
-        first, last = np.full((2, len(self._edges)), -1)
-        last[edges] = np.arange(count)
-        first[edges[::-1]] = np.arange(count)[::-1]
-        return first, last, np.bincount(edges, minlength=len(self._edges))
 
     def _strays(self):
         """Return the faces of stray islands, those of pinholes, and how many of each there are.
 
         Only pieces beside the border count: others bound no contour.
         """
-        first, last, _ = self._corners_of_edges()
-        used = first >= 0
-        one, other = self._corner_faces[first[used]], self._corner_faces[last[used]]
-        alike = (self.selected[one] == self.selected[other]) & ~self._hidden[one] & ~self._hidden[other]
-        labels = edge_paths.component_labels(np.column_stack([one[alike], other[alike]]), len(self.selected))
-        areas = np.bincount(labels, weights=self._areas(), minlength=len(labels))
-        beside = (self.selected[one] != self.selected[other]) & ~self._hidden[one] & ~self._hidden[other]
-        pieces = np.unique(labels[np.concatenate([one[beside], other[beside]])])
+        one, other = self.edge_faces.T
+        unlike = self.selected[one] != self.selected[other]
+        labels = self.regions(~unlike)
+        areas = np.bincount(labels, weights=self.areas, minlength=self.count)
+        beside = unlike & (self.edge_faces >= 0).all(axis=1)
+        pieces = np.unique(labels[self.edge_faces[beside]])
         limit = _STRAY * areas[np.unique(labels[self.selected])].sum()
         found = []
         for kind in (pieces[self.selected[pieces]], pieces[~self.selected[pieces]]):
@@ -126,15 +108,6 @@ class FaceSelection:
             found.append(kind[(areas[kind] < limit) & (areas[kind] < _OUTSIZED * largest)])
         islands, pinholes = (np.flatnonzero(np.isin(labels, kind)) for kind in found)
         return islands, pinholes, [len(kind) for kind in found]
-
-    def _areas(self):
-        """Return the area of each face: half the length of the sum of its corners' cross products."""
-        here = self._points[self._corner_vertices]
-        origin = np.repeat(here[self._offsets[:-1]], np.diff(self._offsets), axis=0)
-        after = self._points[self._corner_vertices[self._next(np.arange(len(here)))]]
-        crosses = np.cross(here - origin, after - origin)
-        sums = np.column_stack([np.bincount(self._corner_faces, axis, len(self.selected)) for axis in crosses.T])
-        return 0.5 * np.linalg.norm(sums, axis=1)
 
 
 def _walked(selection, selected):

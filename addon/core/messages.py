@@ -82,8 +82,11 @@ def _dents(outcomes):
     return [f"A fault of the mesh may have dented a contour: {fault}" for fault in dict.fromkeys(faults)]
 
 
-def single_edge(vertices):
-    return f"a single edge, {vertices[0]}-{vertices[-1]}, has nothing between its ends to move; select a longer chain"
+def single_edge(vertices, from_faces=False):
+    edge = f"a single edge, {vertices[0]}-{vertices[-1]}, has nothing between its ends to move; "
+    if from_faces:
+        return edge + "select other faces"
+    return edge + "turn on Close Chains to take the loop through it around the limb, or select a longer chain"
 
 
 def meets_another(vertices):
@@ -97,6 +100,11 @@ def left_out(counts):
     """Return a note on what was selected but hardly meant, given how many there are of each kind; empty if none."""
     parts = [f"{count} {noun}" + "s" * (count != 1) for noun, count in sorted(counts.items()) if count]
     return ["Left out of the selection: " + ", ".join(parts)] if parts else []
+
+
+def joined(dashes):
+    """Return a note that dashes were joined; empty if none were."""
+    return [f"{dashes} dashes were joined"] if dashes else []
 
 
 def level(outcomes, warnings):

@@ -18,6 +18,8 @@ class Outcome:
     vertices: np.ndarray | None = None  # in order; None if the edges branch
     closed: bool = True
     closing: bool = False  # whether it is an open chain that is to be closed first
+    as_selected: bool = True  # whether just its edges are selected
+    beside: np.ndarray | None = None  # (n, 2) edges that are selected too, but hardly meant
     result: object = None
     problem: str = ""
     culprits: tuple = ()  # the elements at which the problem lies, (kind, id), to be shown to the user

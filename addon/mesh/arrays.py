@@ -10,6 +10,7 @@ import numpy as np
 
 from ..core import edge_paths
 from ..core.face_borders import FaceSelection
+from ..core.faces import Faces
 from . import attributes
 
 _SCALE_TOLERANCE = 1e-3  # scales that differ by less than this fraction are the same
@@ -68,6 +69,11 @@ def read_selected_edges(obj):
     used = np.zeros(len(obj.data.edges), dtype=bool)
     used[attributes.read(obj, "loops", "edge_index", np.int32)] = True
     return edges, edges[~used[chosen]]
+
+
+def read_faces(obj):
+    """Return the faces of a synchronized mesh."""
+    return Faces(_read_points(obj), **vars(read_edge_arrays(obj)))
 
 
 def read_selected_faces(obj):

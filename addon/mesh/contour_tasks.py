@@ -3,11 +3,13 @@
 
 from collections import Counter
 from dataclasses import dataclass, field
+from functools import cache
 
 import bpy
 import numpy as np
 
 from ..core import edge_paths, mesh_faults, messages
+from ..core.edge_selections import read_edges
 from ..core.outcomes import Outcome
 from ..core.refusals import Refusal
 from ..core.search import ContourSearch
@@ -16,6 +18,7 @@ from .arrays import (
     is_inside_out,
     is_unevenly_scaled,
     read_arrays,
+    read_faces,
     read_selected_edges,
     read_selected_faces,
     synchronize,
@@ -34,12 +37,20 @@ class ContourTask(ContourSearch):
     mirrored: bool = False  # whether some contours are only mirror images of the selected ones
     asymmetric: bool = False  # whether X Mirror is on but mirror images are missing
     left_out: Counter = field(default_factory=Counter)  # what was selected but hardly meant: how many of each kind
+    dashes: int = 0  # how many chains were joined to others
     strays: tuple = ()  # in face mode the faces of islands that do not count, and those of pinholes that do
 
     def old_edges(self):
         """Return the edges of the contours that have a result, as they were selected."""
-        edge_lists = [outcome.edges for outcome in self.done()]
-        return np.concatenate(edge_lists) if edge_lists else np.empty((0, 2), dtype=np.int32)
+        return _concatenated([outcome.edges for outcome in self.done()])
+
+    def edges_beside(self):
+        """Return the edges that were selected beside these contours, but left out."""
+        return _concatenated([outcome.beside for outcome in self.done() if outcome.beside is not None])
+
+
+def _concatenated(edge_lists):
+    return np.concatenate([np.empty((0, 2), dtype=np.int32), *edge_lists])
 
 
 def read_tasks(objects, face_mode, close=False, constraints=None):
@@ -63,7 +74,7 @@ def read_task(obj, face_mode, close=False):
     synchronize(obj)
     task = _read_faces(obj) if face_mode else _read_edges(obj, close)
     for outcome in task.outcomes:
-        refusal = None if outcome.problem else _refusal(outcome)
+        refusal = None if outcome.problem else _refusal(outcome, face_mode)
         if refusal:
             outcome.refuse(refusal)
     _name_faults(task, [outcome for outcome in task.outcomes if outcome.kind == SINGLE_EDGE])
@@ -97,19 +108,30 @@ def warnings_of(task):
 
 
 def notes(tasks):
-    """Return what was left out of the selections of objects with results."""
-    return messages.left_out(sum((task.left_out for task in tasks if task.done()), Counter()))
+    """Return how the selections of objects with results were read, where not as they are."""
+    done = [task for task in tasks if task.done()]
+    left_out = sum((task.left_out for task in done), Counter())
+    return messages.left_out(left_out) + messages.joined(sum(task.dashes for task in done))
 
 
 def _read_edges(obj, close):
     """Read the contours of the selected edges; with `close`, chains will be closed."""
     edges, loose = read_selected_edges(obj)
     edges, mirrored, asymmetric = _with_images(obj, edges)
-    outcomes = _outcomes(obj.name, edge_paths.sort_edges(edges))
+    found = read_edges(edges, cache(lambda: read_faces(obj)), close)
+    outcomes = [_outcome(obj.name, contour, close) for contour in found.contours]
+    outcomes += [_branching(obj.name, piece) for piece in found.branching]
     for outcome in outcomes:
-        outcome.closing = close and not outcome.closed
         _refuse_loose(outcome, edge_paths.common_edges(outcome.edges, loose))
-    return ContourTask(outcomes, obj=obj, mirrored=mirrored, asymmetric=asymmetric)
+    task = ContourTask(outcomes, obj=obj, mirrored=mirrored, asymmetric=asymmetric)
+    task.left_out, task.dashes = found.left_out, found.dashes
+    return task
+
+
+def _outcome(place, contour, close):
+    closing = close and not contour.closed
+    reading = {"as_selected": contour.as_selected, "beside": contour.beside}
+    return Outcome.of(place, contour.vertices, contour.closed, closing=closing, **reading)
 
 
 def _read_faces(obj):
@@ -159,8 +181,8 @@ def _refuse_loose(outcome, loose):
         outcome.refuse(Refusal(messages.loose(loose, outcome.closed), loose))
 
 
-def _refusal(outcome):
+def _refusal(outcome, from_faces):
     """Return why a contour cannot be searched at all; None if it can."""
     if len(outcome.edges) == 1 and not outcome.closing:
-        return Refusal(messages.single_edge(outcome.vertices), outcome.vertices, code=SINGLE_EDGE)
+        return Refusal(messages.single_edge(outcome.vertices, from_faces), outcome.vertices, code=SINGLE_EDGE)
     return None

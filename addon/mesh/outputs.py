@@ -92,7 +92,8 @@ def write(context, tasks, options):
 def _is_possible(outcome, task, options):
     changes_mesh = options.output not in ("SELECT", "CUT")
     stuck = outcome.result.status == "unchanged" and (outcome.result.reason_code == "no_room" or outcome.fault)
-    return changes_mesh or task.mirrored or outcome.closing or not stuck
+    completed = task.mirrored or outcome.closing or not outcome.as_selected
+    return changes_mesh or completed or not stuck
 
 
 def _write(context, tasks, options):
@@ -117,7 +118,7 @@ class _Cut:
         results = [outcome.result for outcome in self.done]
         self.changes_faces = options.output in SPLITTING or cutting.cuts_faces(self.bm, results)
         self.normals_stored = self.changes_faces and custom_normals.store(task.obj, self.bm, cutting.faces_cut(results))
-        self._clear_old(task.old_edges())
+        self._clear_old(task.old_edges(), task.edges_beside())
         self.strays = self._tidy_strays(*task.strays)
         ids = cutting.cut_contours(self.bm, results, options.merge)
         self.contours = [(vertices, result.closed) for vertices, result in zip(ids, results)]
@@ -145,12 +146,15 @@ class _Cut:
     def _edges_along(self, chains):
         return [edge for chain in chains for edge in separation.edges_along(self.bm, *chain)]
 
-    def _clear_old(self, old_edges):
-        """Clear the marks and selection of the given edges, before the cut may split these edges."""
+    def _clear_old(self, old_edges, beside):
+        """Clear the marks and selection of the given edges, before the cut may split these edges.
+
+        Edges that are left out beside them keep their marks.
+        """
         edges = find_edges(self.bm, old_edges)
         edge_marks.clear_given(edges, self.options.output, self.options.keep_old)
         if not self.from_faces:
-            edge_marks.select_each([edges], False)
+            edge_marks.select_each([edges, find_edges(self.bm, beside)], False)
 
     def _tidy_strays(self, islands=(), pinholes=()):
         """Deselect stray islands and select pinholes, by their faces, before the cut may split them; return all."""

@@ -153,6 +153,13 @@ def mesh_state(obj):
     }
 
 
+def but_selection(state):
+    """Return a mesh's state without what is selected."""
+    places = {"vertices": 1, "edges": 2, "faces": -4}
+    rows = {kind: [(*row[:at], *row[at:][1:]) for row in state[kind]] for kind, at in places.items()}
+    return rows | {"layers": state["layers"]}
+
+
 OUTPUTS = ("SELECT", "SEAM", "SHARP", "CUT", "RIP", "SEPARATE")
 GROOVE_EDGES = edge_set(ring(GROOVE))
 START = rough_loop(GROOVE - 3)  # near enough to find the groove

@@ -142,13 +142,13 @@ def test_selected_faces_are_those_whose_edges_are_all_selected():
 
 def test_branching_selections_stay_and_are_named(last, capfd):
     obj = start()
-    branch = pairs(ring(3)) + [(3 * SEGMENTS, 4 * SEGMENTS)]
+    branch = pairs(ring(2)[:11], closed=False) + [(row * SEGMENTS + 5, (row + 1) * SEGMENTS + 5) for row in range(2, 6)]
     select(obj, branch)
     assert run(output="SEAM") == {"FINISHED"}
     assert marked_edges(obj, "seam") == GROOVE_EDGES
     assert marked_edges(obj, "select") == GROOVE_EDGES | {frozenset(pair) for pair in branch}
     assert f"Warning: {last.message}" in capfd.readouterr().out
-    assert f"branches at vertex {3 * SEGMENTS};" in last.message
+    assert f"branches at vertex {2 * SEGMENTS + 5};" in last.message
 
 
 def test_the_border_of_selected_faces_in_face_mode():
