@@ -15,7 +15,7 @@ from . import dashes, edge_paths
 from .edge_graphs import EdgeGraph
 from .faces import edge_keys
 
-_THIN = 0.125  # a cell's mean width, as a fraction of the outline of the largest region beside it
+_THIN = 0.08  # a cell's mean width, as a fraction of the outline of the largest region beside it
 _SMALL = 0.25  # a cell's area, as a fraction of that region's
 _NEAR = 0.25  # how far what is left out may lie from the contour, as a fraction of its length
 
@@ -100,13 +100,15 @@ class _Piece:
     def __init__(self, pairs, faces, numbers, sides, areas, is_open, wall):
         self.pairs, self._faces, self._lengths = pairs, faces, faces.lengths(numbers)
         self._sides = sides[numbers]
-        self._cells = self._find_cells(numbers, sides, areas, is_open, wall)
+        self._inner = (faces.edge_faces[numbers] >= 0).all(axis=1)  # no contour runs along the border of the mesh
         self._vertices, self._ends = np.unique(pairs, return_inverse=True)
         self._ends = self._ends.reshape(-1, 2)
+        no_cells = np.empty(0, dtype=int)  # a single loop is meant, however thin what it encloses
+        self._cells = no_cells if self._loop_count() < 2 else self._find_cells(numbers, sides, areas, is_open, wall)
 
     def contour(self):
         """Return the loop or chain that is meant; None if it is not clear."""
-        rank = len(self.pairs) - len(self._vertices) + 1 - len(self._cells)
+        rank = self._loop_count() - len(self._cells)
         if rank not in (0, 1):
             return None
         vertices = self._loop() if rank else self._chain()
@@ -116,6 +118,10 @@ class _Piece:
         closed = rank == 1
         vertices = _from_the_lowest(vertices) if closed else vertices if vertices[0] < vertices[-1] else vertices[::-1]
         return Contour(vertices, closed, _without(self.pairs, edge_paths.contour_edges(vertices, closed)))
+
+    def _loop_count(self):
+        """Return how many loops there are that are independent of each other."""
+        return len(self.pairs) - len(self._vertices) + 1
 
     def left_out(self, contour):
         """Return how many spurs are left out, and how many other edges."""
@@ -140,11 +146,14 @@ class _Piece:
 
     def _loop(self):
         """Return the shortest loop that goes once round."""
-        crossing = self._cut()
-        graph = EdgeGraph(self.pairs.tolist(), self._lengths.tolist(), crossing)
+        crossing = np.zeros(len(self.pairs), dtype=bool)
+        crossing[self._cut()] = True
+        pairs, lengths = self.pairs[self._inner].tolist(), self._lengths[self._inner].tolist()
+        crossing = np.flatnonzero(crossing[self._inner]).tolist()
+        graph = EdgeGraph(pairs, lengths, crossing)
         best, least = None, np.inf
         for i in crossing:
-            (a, b), length = self.pairs[i].tolist(), float(self._lengths[i])
+            (a, b), length = pairs[i], lengths[i]
             found = graph.path(a, b, limit=least - length)
             if found is not None and found[1] + length < least:
                 best, least = found[0], found[1] + length

@@ -157,7 +157,8 @@ class InEditMode:
         """
         panels.show_result(context, message, outcomes)
         self.report({level}, message)
-        if not changed and not self.options.is_repeat:
+        culprits = any(outcome.culprits for outcome in outcomes)
+        if culprits and not changed and not self.options.is_repeat:
             show_place.show(context, outcomes)
         return {"FINISHED"} if changed else {"CANCELLED"}
 

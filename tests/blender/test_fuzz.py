@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from contour_shapes import add_attributes, edges_by_ends, rough_plate, rough_sphere
-from made_meshes import OUTPUTS, edit, grooved_cylinder, mesh_state
+from made_meshes import OUTPUTS, but_selection, edit, grooved_cylinder, mesh_state
 
 CASES, CHUNK = 500, 25
 ALONG_EDGES = ("SELECT", "SEAM", "SHARP", "CUT")
@@ -55,7 +55,7 @@ def check_run(rng):
     after = mesh_state(obj)
     counts[settings["output"], settings["refinement"] > 0, status] += 1
     if status == "CANCELLED":
-        assert after == before
+        assert but_selection(after) == but_selection(before)
         assert len(bpy.data.objects) == 1
         return
     assert hidden_shapes(obj) == hidden

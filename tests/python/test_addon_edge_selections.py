@@ -165,6 +165,29 @@ def test_all_edges_of_a_mesh_are_not_clear():
     assert not found.contours
 
 
+@pytest.mark.parametrize("row", [0, ROWS - 3])
+def test_of_a_thick_ring_at_the_border_of_the_mesh_no_loop_along_the_border_is_taken(row):
+    edges = [edge for i in range(3) for edge in ring(row + i)] + [
+        e for i in range(COLUMNS) for e in column(i, [row, row + 1])
+    ]
+    (loop,) = read(edges).contours
+    assert edge_set(loop) in (as_set(ring(row + i)) for i in range(3) if row + i not in (0, ROWS - 1))
+
+
+def test_a_loop_around_something_long_and_thin_stays_a_loop():
+    around = ring(20, range(2, 12)) + ring(22, range(2, 12)) + column(2, [20, 21]) + column(12, [20, 21])
+    (contour,) = read(around, column(5, [22, 23])).contours
+    assert contour.closed
+    assert edge_set(contour) == as_set(around)
+
+
+def test_a_loop_that_is_doubled_along_a_stretch_stays_a_loop():
+    around = ring(15, range(2, 12)) + ring(25, range(2, 12)) + column(2, range(15, 25)) + column(12, range(15, 25))
+    (contour,) = read(around, ring(26, [4, 5]) + column(4, [25]) + column(6, [25])).contours
+    assert contour.closed
+    assert as_set(around) - edge_set(contour) <= as_set(ring(25, [4, 5]))
+
+
 def test_each_piece_is_read_by_itself():
     found = read(ring(8), column(0, [8, 9]), ring(30), ring(31), column(5, [30]), ring(15), ring(20, range(5)))
     closed = [contour.closed for contour in found.contours]
