@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Joins the dashes of a loop that is selected with gaps. Does not need Blender.
 
-Ends of two chains face each other where each continues the other's direction across a gap that is short beside them. Of
-these, ends that are nearest to one another are joined along the shortest path, which no other contour touches.
+Ends of two chains may be joined where the gap is short beside them and the way across it does not turn back. Of these,
+ends that are nearest to one another are joined along the shortest path, which no other contour touches.
 """
 
 from dataclasses import dataclass
@@ -12,7 +12,9 @@ import numpy as np
 from .edge_graphs import EdgeGraph
 
 _GAP = 2.2  # the longest gap, in lengths of the longer of the two dashes beside it
-_AHEAD = 0.6  # the least cosine between the direction of a dash and the gap at its end
+_AHEAD = -0.3  # the least cosine between the direction of a dash and the gap at its end,
+_ONWARD = -0.6  # and between the directions of two dashes; staircases turn by right angles, three dashes by 120 degrees
+_ASKEW = 0.5  # how much farther an end is counted that lies abreast
 _DETOUR = 2.0  # the longest path across a gap, in lengths of the gap
 _MOST = 1000  # dashes; more are no drawing
 
@@ -61,12 +63,14 @@ def _joints(chains, points):
     gaps = np.linalg.norm(ends[:, None] - ends[None], axis=2)
     own = np.arange(len(ends)) // 2
     possible = (gaps <= _GAP * np.maximum(lengths[:, None], lengths[None])) & (own[:, None] != own[None]) & (gaps > 0)
+    costs = np.full(gaps.shape, np.inf)
     for i, j in np.argwhere(np.triu(possible)).tolist():
         across = (ends[j] - ends[i]) / gaps[i, j]
-        ahead = min(_direction(lines[i], gaps[i, j] / 2) @ across, -(_direction(lines[j], gaps[i, j] / 2) @ across))
-        possible[i, j] = possible[j, i] = ahead >= _AHEAD
-    gaps = np.where(possible, gaps, np.inf)
-    nearest = np.argmin(gaps, axis=1)
+        one, other = (_direction(lines[end], gaps[i, j]) for end in (i, j))
+        ahead, onward = min(one @ across, -(other @ across)), -(one @ other)
+        possible[i, j] = possible[j, i] = ahead >= _AHEAD and onward >= _ONWARD
+        costs[i, j] = costs[j, i] = gaps[i, j] * (1 + _ASKEW * (1 - ahead))
+    nearest = np.argmin(np.where(possible, costs, np.inf), axis=1)
     mutual = (nearest[nearest] == np.arange(len(ends))) & possible.any(axis=1)
     return np.where(mutual, nearest, -1)
 

@@ -20,7 +20,8 @@ class EdgeGraph:
 
         A path changes its side, 0 or 1, at each edge that crosses the cut. It stops at blocked vertices and the goal.
         """
-        found, queue = {}, [(0.0, (start, 0), None) for start in sorted(starts)]
+        found: dict = {}
+        queue: list = [(0.0, (start, 0), None) for start in sorted(starts)]
         while queue:
             distance, place, before = heapq.heappop(queue)
             if place in found:

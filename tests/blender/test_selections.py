@@ -52,6 +52,14 @@ def test_dashes_that_make_a_loop_are_joined(count, close, last):
     assert last.message.endswith(f"{count} dashes were joined")
 
 
+@pytest.mark.parametrize("count", [3, 4, 5, 8, 12])
+def test_dashes_of_a_staircase_are_joined_too(count, last):
+    obj = start(dashes(count, START))
+    assert run(output="SEAM") == {"FINISHED"}
+    assert marked_edges(obj, "seam") == GROOVE_EDGES
+    assert last.message.endswith(f"{count} dashes were joined")
+
+
 def test_the_joined_loop_is_selected_if_nothing_is_better(last):
     obj = start(dashes(12, ring(GROOVE)))
     assert run() == {"FINISHED"}
