@@ -145,7 +145,7 @@ class _Piece:
         return cells if areas[cells].sum() < areas[largest] else cells[:0]
 
     def _loop(self):
-        """Return the shortest loop that goes once round."""
+        """Return the shortest loop that goes once round; None if there is none off the border of the mesh."""
         crossing = np.zeros(len(self.pairs), dtype=bool)
         crossing[self._cut()] = True
         pairs, lengths = self.pairs[self._inner].tolist(), self._lengths[self._inner].tolist()
@@ -163,7 +163,8 @@ class _Piece:
         """Return edges of which every loop that goes once round has an odd number, and every cell an even number.
 
         A spanning tree of the regions, cells and one for all others, and one of the vertices that shares no edge with
-        it leave just one edge. The cut is this edge and what joins its two sides in the tree of regions.
+        it leave just one edge. The cut is this edge and what joins its two sides in the tree of regions. There is none
+        where faces do not fit together.
         """
         places = np.searchsorted(self._cells, self._sides) if len(self._cells) else np.zeros_like(self._sides)
         inside = np.isin(self._sides, self._cells)
@@ -172,9 +173,11 @@ class _Piece:
         used = {edge for edge, _ in before.values() if edge is not None}
         tree = _spanning_tree(self._ends.tolist(), 0, used)
         used |= {edge for edge, _ in tree.values() if edge is not None}
-        (last,) = set(range(len(self.pairs))) - used
-        cut = {last}
-        for node in nodes[last].tolist():
+        rest = sorted(set(range(len(self.pairs))) - used)
+        if len(rest) != 1 or not before.keys() >= set(nodes[rest[0]].tolist()):
+            return []
+        cut = set(rest)
+        for node in nodes[rest[0]].tolist():
             while before[node][0] is not None:
                 edge, node = before[node]
                 cut ^= {edge}

@@ -201,9 +201,11 @@ def linked(obj):
     )
 
 
-def branching(vertices):
-    noun = "vertex" if len(vertices) == 1 else "vertices"
-    return f"the selection branches at {noun} {shortened(vertices)}; select single loops, or faces in face mode"
+def branching(vertices, from_faces=False):
+    where = f"{'vertex' if len(vertices) == 1 else 'vertices'} {shortened(vertices)}"
+    if from_faces:
+        return f"the border of the selected faces branches at {where}; deselect the faces there"
+    return f"the selection branches at {where}; select single loops, or faces in face mode"
 
 
 def no_layer(kind, name):

@@ -41,7 +41,7 @@ class ContourTask(ContourSearch):
     strays: tuple = ()  # in face mode the faces of islands that do not count, and those of pinholes that do
 
     def old_edges(self):
-        """Return the edges of the contours that have a result, as they were selected."""
+        """Return the edges along the given contours that have a result."""
         return _concatenated([outcome.edges for outcome in self.done()])
 
     def edges_beside(self):
@@ -161,17 +161,17 @@ def _with_images(obj, edges):
 
 
 def _outcomes(place, pieces):
-    """Return one outcome for each loop, chain and branching piece."""
+    """Return one outcome for each loop, chain and branching piece of the borders of faces."""
     contours = [(loop, True) for loop in pieces.loops] + [(chain, False) for chain in pieces.chains]
     return [Outcome.of(place, vertices, closed) for vertices, closed in contours] + [
-        _branching(place, piece) for piece in pieces.branching
+        _branching(place, piece, from_faces=True) for piece in pieces.branching
     ]
 
 
-def _branching(place, edges):
+def _branching(place, edges, from_faces=False):
     """Return the outcome of a piece that is no contour, since edges branch off it."""
     outcome, vertices = Outcome(place, edges), edge_paths.branch_vertices(edges)
-    outcome.refuse(Refusal(messages.branching(vertices), vertices))
+    outcome.refuse(Refusal(messages.branching(vertices, from_faces), vertices))
     return outcome
 
 

@@ -263,3 +263,23 @@ def test_joints_keep_off_other_contours():
     chains = dashes(15, *((i * 6, i * 6 + 4) for i in range(4)))
     across = [at(row, 5) for row in range(5, 25)]
     assert join(chains, across) == ([], [0, 1, 2, 3])
+
+
+def test_random_selections_are_read_whole_and_in_any_order(rng):
+    """Every edge is in a contour, beside it or given back, and all contours are simple."""
+    for _ in range(40):
+        count = int(rng.integers(1, 4))
+        rows = rng.choice(np.arange(2, 38, 6), count, replace=False)
+        edges = [edge for row in rows.tolist() for edge in ring(row) + ring(row + 1)]
+        edges += [edge for row in rows.tolist() for i in range(COLUMNS) for edge in column(i, [row])]
+        edges = np.array([edge for edge in edges if rng.random() < rng.choice([0.5, 0.8, 0.95])]).reshape(-1, 2)
+        found = edge_selections.read_edges(edges, lambda: TUBE)
+        again = edge_selections.read_edges(rng.permuted(rng.permutation(edges), axis=1), lambda: TUBE)
+        assert [c.vertices.tolist() for c in found.contours] == [c.vertices.tolist() for c in again.contours]
+        held = set()
+        for contour in found.contours:
+            assert len(set(contour.vertices.tolist())) == len(contour.vertices)
+            held |= edge_set(contour) | as_set(contour.beside.tolist())
+        for piece in found.branching:
+            held |= as_set(piece.tolist())
+        assert held >= as_set(edges.tolist())

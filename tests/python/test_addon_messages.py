@@ -287,3 +287,15 @@ def test_problems_and_warnings_are_reported_as_warnings():
 
 def test_equal_problems_are_reported_once():
     assert messages.summary([unmoved("it branches"), unmoved("it branches")]) == "Left unchanged: it branches"
+
+
+def test_what_was_left_out_is_one_clause():
+    counts = {"spur": 2, "doubled edge": 1, "island": 0}
+    assert messages.left_out(counts) == ["Left out of the selection: 1 doubled edge, 2 spurs"]
+    assert messages.left_out({"island": 0}) == messages.joined(0) == []
+    assert messages.joined(12) == ["12 dashes were joined"]
+
+
+def test_advice_on_branching_fits_the_mode():
+    assert messages.branching([3]) == "the selection branches at vertex 3; select single loops, or faces in face mode"
+    assert "face mode" not in messages.branching([3, 4], from_faces=True)
