@@ -4,6 +4,8 @@
 import bpy
 import numpy as np
 
+from . import edit_mode
+
 _NAME = "minimum_ratio_contours_normals"
 
 
@@ -33,24 +35,10 @@ def are_stored(mesh):
 
 def restore(context):
     """Restore the stored normals of all meshes that have some. Leaves Edit Mode and enters it again."""
-    editing = context.objects_in_mode[:]
-    selected = context.selected_objects[:]
-    unselectable = [obj for obj in editing if obj.hide_select]
-    for obj in unselectable:
-        obj.hide_select = False
-    for obj in selected:
-        obj.select_set(obj in editing)
-    bpy.ops.object.mode_set(mode="OBJECT")
-    for mesh in bpy.data.meshes:
-        if are_stored(mesh):
-            restore_mesh(mesh)
-    for obj in editing:
-        obj.select_set(True)
-    bpy.ops.object.mode_set(mode="EDIT")
-    for obj in {*selected, *editing}:
-        obj.select_set(obj in selected)
-    for obj in unselectable:
-        obj.hide_select = True
+    with edit_mode.left(context):
+        for mesh in bpy.data.meshes:
+            if are_stored(mesh):
+                restore_mesh(mesh)
 
 
 def restore_mesh(mesh):

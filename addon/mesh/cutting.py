@@ -13,6 +13,7 @@ from ..core.contour_points import contour_points, merge_points, without_points_a
 
 _FLAT = 1e-6  # fraction of the squared perimeter; a piece of a face with less area than this counts as flat
 _STRAIGHT = 1e-5  # fraction of a segment's length; a smaller bend counts as straight
+_DEFAULTS = {"bool": False, "int": 0, "float": 0.0, "float_vector": (0.0,) * 3, "float_color": (1.0,) * 4}
 
 
 class Crossing(ValueError):
@@ -23,7 +24,7 @@ class Crossing(ValueError):
         super().__init__(f"contours cross each other in face {face}: cut them one after the other")
 
 
-def cut_contours(bm, contours, merge=0.0):
+def cut_contours(bm, contours, merge=0.0, copy_edges=False):
     """Cut native results, or similar contours, into a mesh. Return for each contour its vertex ids in order.
 
     An edge joins each vertex of that list to the next: a contour that was cut is a contour along edges. The ids are
@@ -31,11 +32,12 @@ def cut_contours(bm, contours, merge=0.0):
     cut and must not cross each other.
     Points closer to a vertex than the fraction `merge` of their edge are moved onto it, so that the contour moves by as
     much and the cut leaves no slivers.
+    With `copy_edges`, needed where edges carry matrices, new edges are made from old ones, since Blender would crash.
     """
-    return cut_and_follow(bm, contours, [], merge)[0]
+    return cut_and_follow(bm, contours, [], merge, copy_edges)[0]
 
 
-def cut_and_follow(bm, contours, edge_paths, merge=0.0):
+def cut_and_follow(bm, contours, edge_paths, merge=0.0, copy_edges=False):
     """Cut contours like cut_contours, and follow paths along edges, given as lists of vertex ids.
 
     Return the vertex ids of each contour, and for each path the ids of all vertices along it after the cut.
@@ -45,7 +47,7 @@ def cut_and_follow(bm, contours, edge_paths, merge=0.0):
     paths = merge_points(paths, closed, merge, _edges_of_hidden_faces(bm, paths), _border_vertices(bm, paths))
     if not _leaves_edges(bm, paths, closed):
         return [np.array([point.a for point in path]) for path in paths], [np.array(path) for path in edge_paths]
-    knife = _Knife(bm, paths, {vertex for path in edge_paths for vertex in path})
+    knife = _Knife(bm, paths, {vertex for path in edge_paths for vertex in path}, copy_edges)
     followed = [knife.follow(path) for path in edge_paths]
     cut = [knife.cut(path, is_closed) for path, is_closed in zip(paths, closed)]
     knife.finish()
@@ -71,8 +73,8 @@ def _ids(vertices):
 class _Knife:
     """Cuts paths into a bmesh. Knows the elements from before the first cut and the pieces they are in now."""
 
-    def __init__(self, bm, paths, followed=frozenset()):
-        self.bm = bm
+    def __init__(self, bm, paths, followed=frozenset(), copy_edges=False):
+        self.bm, self.copy_edges = bm, copy_edges
         for sequence in (bm.verts, bm.edges, bm.faces):
             sequence.index_update()
             sequence.ensure_lookup_table()
@@ -155,13 +157,29 @@ class _Knife:
         for side in sides:
             if len(side) == 2 or _is_flat([vertex.co for vertex in side] + points[::-1]):
                 return side[1:]  # a cut would leave a piece without area, so follow the face's side instead
-        new, corner = bmesh.utils.face_split(face, start, end, coords=points)
+        new, corner = self._split_face(face, start, end, points)
         new.select_set(face.select)  # all pieces of a selected face stay selected
         self.pieces[face_id].append(new)
         vertices = _along(corner, start, end)
         for vertex, bend in zip(vertices, bends):  # more exact than from the whole polygon, which may not be planar
             vertex.copy_from_vert_interp((self.given[bend.a], self.given[bend.b]), bend.t)
         return vertices
+
+    def _split_face(self, face, start, end, points):
+        """Split a face along a path through new points. Return the new face and the first corner of the cut."""
+        if not self.copy_edges:
+            return bmesh.utils.face_split(face, start, end, coords=points)
+        found = bmesh.utils.face_split(face, start, end, coords=points, example=face.edges[0])
+        for vertex, following in pairwise([start, *_along(found[1], start, end)]):
+            self._reset(self.bm.edges.get((vertex, following)))
+        return found
+
+    def _reset(self, edge):
+        """Give an edge that was made from another one the values of a new edge, as far as bmesh has access to them."""
+        edge.seam, edge.smooth = False, True
+        for kind, value in _DEFAULTS.items():
+            for layer in getattr(self.bm.edges.layers, kind, {}).values():
+                edge[layer] = value
 
     def _real_bends(self, start, bends, end):
         """Return the bends that do not lie on the straight line between their neighbors."""

@@ -11,7 +11,7 @@ import numpy as np
 from ..core import networks
 from ..core.region_check import RegionCheck
 from ..core.topology import make_topology
-from . import attributes, custom_normals, cutting
+from . import attributes, custom_normals, cutting, matrix_attributes
 from .arrays import read_edge_arrays, read_labels, synchronize
 
 _ORIGIN = "minimum_ratio_contours_origin"
@@ -43,7 +43,7 @@ def cut(obj, plan, merge=0.0):
         return plan
     with _editing(obj) as bm:
         custom_normals.store(obj, bm, cutting.faces_cut(_results(plan)))
-        given, paths = _cut(bm, plan, merge)
+        given, paths = _cut(obj, bm, plan, merge)
     synchronize(obj)
     return networks.check_cut(plan, _topology(obj), given, paths)
 
@@ -68,7 +68,7 @@ def _lost_when_cut(obj, plan, merge):
         for i, face in enumerate(bm.faces):
             face[origin] = i
         try:
-            given, paths = _cut(bm, plan, merge)
+            given, paths = _cut(obj, bm, plan, merge)
         except cutting.Crossing as crossing:
             return {i: -1 for i in plan.moved() if crossing.face in plan.results[i].segment_faces}
         topology, origins = _read_copy(bm)
@@ -76,10 +76,11 @@ def _lost_when_cut(obj, plan, merge):
     return {i: int(origins[region]) if region >= 0 else -1 for i, region in lost.items()}
 
 
-def _cut(bm, plan, merge):
+def _cut(obj, bm, plan, merge):
     """Cut the contours of a plan; return the vertices of all chains and of all new paths in the mesh with the cuts."""
     chains = [np.append(chain.vertices, chain.vertices[: chain.closed]).tolist() for chain in plan.chains]
-    ids, followed = cutting.cut_and_follow(bm, _results(plan), chains, merge)
+    copy_edges = bool(matrix_attributes.on(obj.data, "EDGE"))
+    ids, followed = cutting.cut_and_follow(bm, _results(plan), chains, merge, copy_edges)
     paths = dict(zip(plan.moved(), ids))
     given = [path[: len(path) - chain.closed] for path, chain in zip(followed, plan.chains)]
     return given, [paths.get(i) for i in range(len(given))]

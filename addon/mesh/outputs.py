@@ -7,7 +7,7 @@ import bmesh
 import bpy
 
 from ..core import messages
-from . import culprits, custom_normals, cutting, edge_marks, separation
+from . import culprits, custom_normals, cutting, edge_marks, matrix_attributes, separation
 from .arrays import find_edges
 
 SPLITTING = ("RIP", "SEPARATE")
@@ -97,6 +97,12 @@ def _is_possible(outcome, task, options):
 
 
 def _write(context, tasks, options):
+    meshes = [task.obj.data for task in tasks if options.fill_holes and options.output in SPLITTING]
+    with matrix_attributes.as_colors(context, meshes):
+        _write_all(context, tasks, options)
+
+
+def _write_all(context, tasks, options):
     cuts = [_Cut(task, options) for task in tasks]
     for cut in cuts:
         cut.write()
@@ -120,7 +126,8 @@ class _Cut:
         self.normals_stored = self.changes_faces and custom_normals.store(task.obj, self.bm, cutting.faces_cut(results))
         self._clear_old(task.old_edges(), task.edges_beside())
         self.strays = self._tidy_strays(*task.strays)
-        ids = cutting.cut_contours(self.bm, results, options.merge)
+        copy_edges = bool(matrix_attributes.on(self.mesh, "EDGE"))
+        ids = cutting.cut_contours(self.bm, results, options.merge, copy_edges)
         self.contours = [(vertices, result.closed) for vertices, result in zip(ids, results)]
         self.edges = self._edges_along(self.contours)
         self.seeds = []  # one face of each part to be separated

@@ -169,7 +169,7 @@ def run(**properties):
     return bpy.ops.mesh.optimize_contour(**properties)
 
 
-LAYER_TYPES = ("float", "float_color", "float_vector", "int", "bevel_weight", "crease", "deform", "shape", "uv")
+LAYER_TYPES = ("bool", "float", "float_color", "float_vector", "int", "bevel_weight", "crease", "deform", "shape", "uv")
 
 
 def ids(element):
