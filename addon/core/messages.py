@@ -163,7 +163,7 @@ def inseparable(outcome):
     if outcome.closed:
         return (
             f"the loop through vertex {outcome.vertices[0]} does not separate the mesh: it runs around a handle; "
-            "select a second loop around the handle too, or use Cut or Seam"
+            "select a second loop around the handle too, or use Rip"
         )
     return (
         f"the open chain from vertex {outcome.vertices[0]} to {outcome.vertices[-1]} does not separate the mesh; "

@@ -26,18 +26,19 @@ class OutputOptions:
 def refuse(tasks, options):
     """Give each contour a problem that the output cannot be made from; change nothing in the meshes.
 
-    A result separates the same things as the given contour, so this can be decided before the mesh changes.
+    Only separating needs parts; a result separates the same things as the given contour, so this can be decided before
+    the mesh changes.
     """
-    if options.output not in SPLITTING:
+    if options.output != "SEPARATE":
         return
     for task in tasks:
         done = task.done()
         chains = [(outcome.vertices, outcome.closed) for outcome in done]
         bm = bmesh.from_edit_mesh(task.obj.data)  # its faces are valid only as long as this reference lives
         pieces = separation.pieces_between(bm, chains)
-        leaving = _leaving(pieces, task.from_faces) if options.output == "SEPARATE" else []
+        leaving = _leaving(pieces, task.from_faces)
         for outcome, sides in zip(done, pieces):
-            outcome.problem = _splitting_problem(outcome, sides, leaving, options)
+            outcome.problem = _separating_problem(outcome, sides, leaving)
 
 
 def _leaving(pieces, from_faces):
@@ -62,9 +63,7 @@ def _connected_groups(pairs):
     return groups
 
 
-def _splitting_problem(outcome, sides, leaving, options):
-    if options.output == "RIP" and not outcome.closed:
-        return ""  # a slit
+def _separating_problem(outcome, sides, leaving):
     if sides[0] is sides[1]:
         return messages.inseparable(outcome)
     parts = [(piece, piece is sides[0]) for piece in sides if piece in leaving]

@@ -318,17 +318,67 @@ def test_the_selected_faces_are_the_part_that_is_separated():
     assert len(bm_of(obj).faces) == (RINGS - 1 - GROOVE) * SEGMENTS
 
 
-@pytest.mark.parametrize("output", ["RIP", "SEPARATE"])
 @pytest.mark.parametrize("settings", [{}, REFINED])
-def test_one_loop_around_a_torus_separates_nothing(output, settings, last):
+def test_one_loop_around_a_torus_separates_nothing(settings, last):
     obj = torus()
     edit(obj)
     select(obj, pairs(torus_ring(0)))
     before = mesh_state(obj)
-    assert run(output=output, **settings) == {"CANCELLED"}
+    assert run(output="SEPARATE", **settings) == {"CANCELLED"}
     assert mesh_state(obj) == before
     assert "does not separate the mesh" in last.message
     assert len(bpy.data.objects) == 1
+
+
+@pytest.mark.parametrize("settings", [{}, REFINED])
+@pytest.mark.parametrize("fill", [False, True])
+@pytest.mark.parametrize("mode", ["VERTEX", "EDGE"])
+def test_rip_opens_a_torus_to_a_tube(mode, fill, settings):
+    obj = torus()
+    edit(obj, mode=mode)
+    select(obj, pairs(torus_ring(0)))
+    bm = bm_of(obj)
+    euler = len(bm.verts) - len(bm.edges) + len(bm.faces)
+    assert run(output="RIP", fill_holes=fill, **settings) == {"FINISHED"}
+    bm = bm_of(obj)
+    assert is_sound(obj)
+    assert components(bm) == 1
+    assert sum(edge.is_boundary for edge in bm.edges) == (0 if fill else len(marked_edges(obj, "select")))
+    assert len(bm.verts) - len(bm.edges) + len(bm.faces) == euler + 2 * fill
+    if not settings:
+        assert len(bm.verts) == 24 * 12 + 12
+
+
+def plate():
+    obj = mesh_object("Plate", [])
+    bm = bmesh.new()
+    bmesh.ops.create_grid(bm, x_segments=8, y_segments=8, size=1)
+    bm.to_mesh(obj.data)
+    bm.free()
+    return obj
+
+
+ACROSS = list(range(4, 81, 9))  # from border to border of the plate
+
+
+@pytest.mark.parametrize(("first", "last"), [(0, 9), (0, 5), (2, 9), (2, 7), (3, 6)])
+@pytest.mark.parametrize("output", ["RIP", "EDGE_SPLIT"])
+def test_rip_opens_a_chain_as_edge_split_does(output, first, last):
+    """At each of its vertices but ends inside the mesh."""
+    obj = plate()
+    edit(obj)
+    chain = ACROSS[first:last]
+    select(obj, pairs(chain, closed=False))
+    if output == "RIP":
+        assert run(output="RIP", ends="VERTICES") == {"FINISHED"}
+    else:
+        bpy.ops.mesh.edge_split()
+    bm = bm_of(obj)
+    ends = (first > 0) + (last < 9)
+    assert len(bm.verts) == 81 + len(chain) - ends
+    assert components(bm) == (1 if ends else 2)
+    assert sum(edge.is_boundary for edge in bm.edges) == 32 + 2 * (len(chain) - 1)
+    assert is_sound(obj)
 
 
 @pytest.mark.parametrize("output", ["RIP", "SEPARATE"])
@@ -342,29 +392,20 @@ def test_two_loops_around_a_torus_separate_it(output):
 
 
 def test_a_chain_across_the_border_separates_and_one_inside_does_not(last):
-    def plate(name):
-        obj = mesh_object(name, [])
-        bm = bmesh.new()
-        bmesh.ops.create_grid(bm, x_segments=8, y_segments=8, size=1)
-        bm.to_mesh(obj.data)
-        edit(obj)
-        return obj
-
-    across = list(range(4, 81, 9))
-    obj = plate("Across")
-    select(obj, pairs(across, closed=False))
+    obj = plate()
+    edit(obj)
+    select(obj, pairs(ACROSS, closed=False))
     assert run(output="SEPARATE", ends="VERTICES") == {"FINISHED"}
     assert len(bm_of(obj).faces) == 32
     bpy.ops.object.mode_set(mode="OBJECT")
-    obj = plate("Inside")
-    select(obj, pairs(across[1:-1], closed=False))
+    obj = plate()
+    edit(obj)
+    select(obj, pairs(ACROSS[1:-1], closed=False))
     before = mesh_state(obj)
     assert run(output="SEPARATE") == {"CANCELLED"}
     assert mesh_state(obj) == before
     assert "the open chain" in last.message
     assert "does not separate" in last.message
-    assert run(output="RIP") == {"FINISHED"}
-    assert sum(edge.is_boundary for edge in bm_of(obj).edges) == 32 + 2 * 6
 
 
 def test_a_part_that_is_partly_hidden_stays(last):
