@@ -20,8 +20,8 @@ def left(context):
     try:
         yield
     finally:
-        for obj in editing:
-            obj.select_set(True)
+        for obj in {*context.selected_objects, *editing}:
+            obj.select_set(obj in editing)
         bpy.ops.object.mode_set(mode="EDIT")
         for obj in {*selected, *editing}:
             obj.select_set(obj in selected)

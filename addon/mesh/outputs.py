@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes the output of contours in meshes in Edit Mode: marks, selection, cuts, rips and separate objects."""
 
+from collections import defaultdict
 from dataclasses import dataclass
 
 import bmesh
 import bpy
+import numpy as np
 
-from ..core import messages
-from . import culprits, custom_normals, cutting, edge_marks, matrix_attributes, separation
+from ..core import edge_paths, messages
+from . import attributes, culprits, custom_normals, cutting, edge_marks, edit_mode, matrix_attributes, separation
 from .arrays import find_edges
 
 SPLITTING = ("RIP", "SEPARATE")
@@ -185,11 +187,28 @@ class _Cut:
         """Rip the mesh along the contours, whose edges are those of both rims from now on. A slit leaves no hole."""
         loops = self._edges_along(contour for contour in self.contours if contour[1])
         slits = self._edges_along(contour for contour in self.contours if not contour[1])
-        rims = bmesh.ops.split_edges(self.bm, edges=loops)["edges"]
+        rims = self._split_edges(loops)
         if self.options.fill_holes:
             for face in bmesh.ops.holes_fill(self.bm, edges=rims, sides=0)["faces"]:
                 face.hide_set(False)  # a new face may inherit this from a hidden neighbor
-        self.edges = rims + bmesh.ops.split_edges(self.bm, edges=slits)["edges"]
+        self.edges = rims + self._split_edges(slits)
+        for elements in (self.bm.verts, self.bm.edges):
+            elements.index_update()
+
+    def _split_edges(self, edges):
+        """Split edges, and the vertices where they meet or the mesh ends. Return the edges of both rims.
+
+        The operator of bmesh does the same, but goes through the whole mesh.
+        """
+        sides = [corner for edge in edges for corner in edge.link_loops]
+        meeting = defaultdict(list)
+        for edge in edges:
+            for vertex in edge.verts:
+                meeting[vertex].append(edge)
+        for vertex, around in meeting.items():
+            if len(around) > 1 or vertex.is_boundary:
+                bmesh.utils.vert_separate(vertex, around)
+        return list(dict.fromkeys(corner.edge for corner in sides))
 
 
 def _tidy_selection(faces):
@@ -203,11 +222,56 @@ def _tidy_selection(faces):
 
 
 def _separate(context, cuts):
-    """Make each part a separate object; the rest keeps its selection."""
+    """Make each part a separate object; the rest keeps its selection.
+
+    All parts of a mesh leave it at once, since each of Blender's operators goes through the whole mesh. Only then they
+    are divided.
+    """
+    known = set(bpy.data.objects)
+    seeds = [seed for cut in cuts for seed in cut.seeds]
+    if not seeds:
+        return
     with edge_marks.nothing_selected([obj.data for obj in context.objects_in_mode_unique_data]):
-        for cut in cuts:
-            for seed in cut.seeds:
-                if seed.is_valid:  # otherwise the part was separated already, for another contour
-                    seed.select_set(True)
-                    bpy.ops.mesh.select_linked(delimit=set())
-                    bpy.ops.mesh.separate(type="SELECTED")
+        edge_marks.select_each([seeds], True)
+        bpy.ops.mesh.select_linked(delimit=set())
+        bpy.ops.mesh.separate(type="SELECTED")
+    if any(len(cut.seeds) > 1 for cut in cuts):
+        _divide(context, [obj for obj in bpy.data.objects if obj not in known])
+
+
+def _divide(context, objects):
+    """Divide objects outside Edit Mode into their loose parts, which are halved until each has its object.
+
+    Blender's own operator for loose parts is faster, but loses shape keys and custom normals.
+    """
+    known = {obj for obj in bpy.data.objects if obj not in objects}
+    active, selected = context.view_layer.objects.active, objects[0].select_get()
+    with edit_mode.left(context):
+        while objects:
+            objects = [part for obj in objects for part in _halves(context, obj)]
+        context.view_layer.objects.active = active
+    for obj in bpy.data.objects:
+        if obj not in known:
+            obj.select_set(selected)
+
+
+def _halves(context, obj):
+    """Divide an object so that each half has half of its loose parts. Return the halves; none if it has one part."""
+    edges = attributes.values(obj.data.edges, "vertices", np.int32, 2)
+    parts = np.unique(edge_paths.component_labels(edges, len(obj.data.vertices)))  # the first vertex of each
+    if len(parts) == 1:
+        return []
+    known = set(bpy.data.objects)
+    for other in context.selected_objects:
+        other.select_set(False)
+    context.view_layer.objects.active = obj
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    for vertex in parts[len(parts) // 2 :].tolist():
+        bm.verts[vertex].link_faces[0].select_set(True)
+    bpy.ops.mesh.select_linked(delimit=set())
+    bpy.ops.mesh.separate(type="SELECTED")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    return [obj, *(other for other in bpy.data.objects if other not in known)]

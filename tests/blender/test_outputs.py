@@ -294,6 +294,62 @@ def test_the_largest_part_stays(rows):
     assert sorted(len(other.data.polygons) for other in bpy.data.objects if other is not obj) == expected[:-1]
 
 
+@pytest.mark.parametrize("normals", [False, True])
+@pytest.mark.parametrize("rows", [(12,), (4, 13), (2, 5, 8, 17)])
+def test_parts_keep_all_that_their_mesh_has(rows, normals):
+    """However many leave it at once. Blender 4.5 loses shape keys where there are custom normals, too."""
+    obj = with_custom_normals(lambda: grooved_cylinder(depth=0)) if normals else grooved_cylinder(depth=0)
+    other = grooved_cylinder("Other")
+    obj.vertex_groups.new(name="Unused")
+    group, mesh = obj.vertex_groups.new(name="Height"), obj.data
+    for vertex in mesh.vertices:
+        group.add([vertex.index], vertex.co.z / 8, "REPLACE")
+    if not normals:
+        obj.shape_key_add(name="Basis")
+        for point in obj.shape_key_add(name="Moved").data:
+            point.co.x += point.co.z
+    for name in ("First", "Second"):
+        mesh.materials.append(bpy.data.materials.new(name))
+    mesh.polygons.foreach_set("material_index", np.arange(len(mesh.polygons)) % 2)
+    mesh.uv_layers.new(name="Map").data.foreach_set(
+        "uv", np.ravel([mesh.vertices[loop.vertex_index].co.yz for loop in mesh.loops])
+    )
+    obj.modifiers.new("Bevel", "BEVEL").width = 0.25
+    obj["note"] = 7
+    obj.location = 1, 2, 3
+    edit(obj, other)
+    select(obj, [pair for row in rows for pair in pairs(ring(row))])
+    known = set(bpy.data.objects)
+    assert run(output="SEPARATE", min_salience=9.0) == {"FINISHED"}  # the loops stay where they are
+    made = set(bpy.data.objects) - known
+    assert len({part.select_get() for part in made}) == 1
+    assert set(bpy.context.objects_in_mode) == {obj, other}
+    assert bpy.context.view_layer.objects.active == obj
+    assert {part.name for part in made} == {f"Cylinder.{number:03}" for number in range(1, len(rows) + 1)}
+    assert sum(len(part.data.polygons) for part in made) + len(bm_of(obj).faces) == (RINGS - 1) * SEGMENTS
+    bpy.ops.object.mode_set(mode="OBJECT")
+    for part in {obj, *made}:
+        mesh = part.data
+        assert not mesh.validate(verbose=True)
+        assert [group.name for group in part.vertex_groups] == ["Unused", "Height"]
+        assert [slot.material.name[:5] for slot in part.material_slots] == ["First", "Secon"]
+        assert {face.material_index for face in mesh.polygons} == {0, 1}
+        assert [(modifier.name, modifier.width) for modifier in part.modifiers] == [("Bevel", 0.25)]
+        assert (part["note"], part.location[:]) == (7, (1, 2, 3))
+        for vertex in mesh.vertices:
+            assert [member.weight for member in vertex.groups] == [pytest.approx(vertex.co.z / 8, abs=1e-6)]
+        for loop, corner in zip(mesh.loops, mesh.uv_layers["Map"].data):
+            assert corner.uv == mesh.vertices[loop.vertex_index].co.yz
+        if normals:
+            expected = [custom_normal(mesh.vertices[loop.vertex_index].co) for loop in mesh.loops]
+            assert np.degrees(np.arccos(np.clip((normals_of(mesh) * expected).sum(1), -1, 1))).max() < 1.0
+            continue
+        moved = mesh.shape_keys.key_blocks["Moved"].data
+        assert len(moved) == len(mesh.vertices)
+        for vertex, point in zip(mesh.vertices, moved):
+            assert point.co.x == pytest.approx(vertex.co.x + vertex.co.z, abs=1e-6)
+
+
 @pytest.mark.parametrize("other", [3, 8, 12, 15, 21])
 def test_of_the_parts_of_a_torus_the_largest_stays(other):
     obj = torus()
