@@ -87,6 +87,8 @@ class _Knife:
         self.vertices = {}  # the new vertices, by the places of their points
         self.inner = {point.place: self._position(point) for point in all_points if self._is_inner(point)}
         self._split_edges(all_points)
+        self.copies = []  # of faces, until the last cut
+        self.halves = self._halves([point for point in all_points if point.place in self.inner])
 
     def cut(self, path, closed):
         """Split the faces that a path crosses, and return the vertices along it."""
@@ -110,7 +112,9 @@ class _Knife:
         return [self.given[path[0]]] + [v for a, b in pairwise(path) for v in (*between.get((a, b), ()), self.given[b])]
 
     def finish(self):
-        """Update the ids and normals after the last cut."""
+        """Remove the copies and update the ids and normals after the last cut."""
+        for vertex in dict.fromkeys(vertex for copy in self.copies for vertex in copy.verts):
+            self.bm.verts.remove(vertex)
         self.bm.verts.index_update()
         self.bm.edges.index_update()
         self.bm.faces.index_update()
@@ -146,6 +150,28 @@ class _Knife:
                 edge, self.vertices[a, b, t] = bmesh.utils.edge_split(edge, near, t / left)
                 left = t
 
+    def _halves(self, points):
+        """Return for each diagonal that a contour crosses a part of its face to one side, cut from a copy.
+
+        Inside a polygon Blender interpolates corners by the polygon's shape, but on its border linearly, as they and
+        the vertices should be along a diagonal.
+        """
+        diagonals = defaultdict(set)
+        for point in points:
+            diagonals[point.face].add((point.a, point.b))
+        halves = {}
+        for face_id in sorted(diagonals):
+            face = self.pieces[face_id][0]
+            parts = [face.copy()]
+            vertices = dict(zip(face.verts, parts[0].verts))
+            for a, b in sorted(diagonals[face_id]):
+                ends = vertices[self.given[a]], vertices[self.given[b]]
+                part = next(part for part in parts if set(ends) <= set(part.verts))
+                parts.append(self._split_face(part, *ends, ())[0])
+                halves[a, b] = part
+            self.copies += parts
+        return halves
+
     def _connect(self, start, end, bends, face_id):
         """Connect two vertices, along existing edges or by a cut. Return the vertices after `start` up to `end`."""
         bends = self._real_bends(start.co, bends, end.co)
@@ -163,6 +189,8 @@ class _Knife:
         vertices = _along(corner, start, end)
         for vertex, bend in zip(vertices, bends):  # more exact than from the whole polygon, which may not be planar
             vertex.copy_from_vert_interp((self.given[bend.a], self.given[bend.b]), bend.t)
+            for corner in vertex.link_loops:
+                _interpolate(corner, self.halves[bend.a, bend.b])
         return vertices
 
     def _split_face(self, face, start, end, points):
@@ -198,6 +226,14 @@ class _Knife:
         if not found:
             raise Crossing(face_id)
         return found[0]
+
+
+def _interpolate(corner, face):
+    """Give a corner the values that a face has at its place, apart from grids of multiresolution."""
+    try:
+        corner.copy_from_face_interp(face, False, False)
+    except TypeError:  # earlier releases of Blender want the arguments in one tuple
+        corner.copy_from_face_interp((face, False, False))
 
 
 def _pair(vertices):

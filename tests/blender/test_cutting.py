@@ -139,6 +139,27 @@ def test_layers_are_interpolated(seed):
 
 
 @pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("dissolve", [0.0, 0.4, 1.0])
+def test_corners_are_interpolated_like_vertices(dissolve, seed):
+    """Also inside polygons that are not planar, where points lie on the diagonals of the triangulation."""
+    obj = rough_sphere(seed, dissolve)
+    corners = mesh_points(obj)[[loop.vertex_index for loop in obj.data.loops]]
+    obj.data.uv_layers.new(name="UVMap").data.foreach_set("uv", corners[:, :2].ravel())
+    colors = np.column_stack([corners, corners[:, 0]]).ravel()
+    obj.data.attributes.new("Paint", "FLOAT_COLOR", "CORNER").data.foreach_set("color", colors)
+    obj.data.attributes.new("Place", "FLOAT_VECTOR", "CORNER").data.foreach_set("vector", corners.ravel())
+    count = len(obj.data.vertices)
+    chains = cut_mesh(obj, some_contours(obj, seed))
+    assert len(obj.data.vertices) > count
+    assert max(map(max, chains)) == len(obj.data.vertices) - 1
+    corners = mesh_points(obj)[[loop.vertex_index for loop in obj.data.loops]]
+    np.testing.assert_allclose([corner.uv[:] for corner in obj.data.uv_layers[0].data], corners[:, :2], atol=3e-6)
+    np.testing.assert_allclose(read_attribute(obj, "Paint", "color", 4)[:, :3], corners, atol=3e-6)
+    np.testing.assert_allclose(read_attribute(obj, "Place", "vector", 3), corners, atol=3e-6)
+    assert not obj.data.validate(verbose=True)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
 def test_pieces_inherit_marks(seed):
     """Halves of an edge keep its marks, new edges inside a face have none, and pieces of a face are like the face."""
     obj = rough_sphere(seed)
