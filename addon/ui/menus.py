@@ -31,23 +31,26 @@ def _separate(layout):
     layout.operator_context = _INVOKED
 
 
+def _draw_contour(layout, **text):
+    """Draw the entry that selects the contour, whatever the last run did.
+
+    Shortcuts that users give to an entry have its properties, so they select, too.
+    """
+    layout.operator(OPERATOR, **text).output = "SELECT"
+
+
 def _draw_edge(self, context):
     _separate(self.layout)
-    self.layout.operator(OPERATOR)
+    _draw_contour(self.layout)
     self.layout.operator("mesh.adjust_contour")
     self.layout.menu(VIEW3D_MT_minimum_ratio_contours.bl_idname)
 
 
-def _draw_context(self, context):
-    _separate(self.layout)
-    self.layout.operator(OPERATOR)
-    self.layout.operator("mesh.adjust_contour")
-
-
 def _draw_face(self, context):
     _separate(self.layout)
-    self.layout.operator(OPERATOR, text="Optimize Contour of Faces")
+    _draw_contour(self.layout, text="Optimize Contour of Faces")
     self.layout.operator("mesh.optimize_segmentation")
+    self.layout.menu(VIEW3D_MT_minimum_ratio_contours.bl_idname)
 
 
 def _draw_uv(self, context):
@@ -64,7 +67,7 @@ def _draw_mesh(self, context):
 
 _ENTRIES = (
     ("VIEW3D_MT_edit_mesh", _draw_mesh),
-    ("VIEW3D_MT_edit_mesh_context_menu", _draw_context),
+    ("VIEW3D_MT_edit_mesh_context_menu", _draw_edge),
     ("VIEW3D_MT_edit_mesh_edges", _draw_edge),
     ("VIEW3D_MT_edit_mesh_faces", _draw_face),
     ("VIEW3D_MT_uv_map", _draw_uv),

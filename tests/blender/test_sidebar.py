@@ -10,6 +10,7 @@ import minimum_ratio_contours
 import pytest
 from made_meshes import (
     GROOVE,
+    OUTPUTS,
     SEGMENTS,
     START,
     edit,
@@ -88,12 +89,25 @@ def test_every_menu_entry_runs():
             assert getattr(getattr(bpy.ops, category), name)(**vars(properties)) == {"FINISHED"}
             seen.add((idname, *vars(properties).values()))
             bpy.ops.object.mode_set(mode="OBJECT")
-    assert {output for _, *outputs in seen for output in outputs} == {"SEAM", "SHARP", "CUT", "RIP", "SEPARATE"}
+    assert {output for _, *outputs in seen for output in outputs} == set(OUTPUTS)
     names = {idname for idname, *_ in seen}
     assert names == {f"mesh.{name}" for name in dir(bpy.ops.mesh) if "optimize" in name} | {
         "mesh.adjust_contour",
         "mesh.show_curvature",
     }
+
+
+def test_every_menu_entry_says_its_output_instead_of_repeating_the_last():
+    """In a window, Blender gives an operator the properties of its last run where an entry sets none."""
+    for menu_name, draw in menus._ENTRIES:
+        menu = Drawn()
+        draw(menu, bpy.context)
+        entries = {text: vars(properties) for idname, text, properties in menu.layout.drawn if idname == menus.OPERATOR}
+        assert all("output" in properties for properties in entries.values())
+        for text in ("", "Optimize Contour of Faces"):
+            assert entries.get(text, {"output": "SELECT"}) == {"output": "SELECT"}
+        if menu_name != "VIEW3D_MT_uv_map" and entries:
+            assert menu.layout.menus == [menus.VIEW3D_MT_minimum_ratio_contours.bl_idname]
 
 
 def test_the_panel_shows_the_last_result(last):

@@ -22,7 +22,7 @@ def test_the_edge_menu(window):
     cylinder()
     yield from opened(window, "E", ctrl=True)
     window.picture("menu-edge")
-    yield from window.choose("mesh.optimize_contour()")
+    yield from window.choose("optimize_contour(output='SELECT')")
     assert marked_edges(now(), "select") == edge_set(ring(GROOVE))
 
 
@@ -35,6 +35,24 @@ def test_the_submenu_of_the_edge_menu_marks_a_seam(window):
     window.picture("menu-outputs")
     yield from window.choose("output='SEAM'")
     assert marked_edges(now(), "seam") == edge_set(ring(GROOVE))
+
+
+def test_after_a_part_was_separated_the_menu_entry_only_selects(window):
+    cylinder()
+    yield from opened(window, "E", ctrl=True)
+    yield from window.press("END")
+    yield from window.press("RIGHT_ARROW")
+    yield from window.rest()
+    yield from window.choose("output='SEPARATE'")
+    assert len(bpy.data.objects) == 2
+    assert bpy.context.window_manager.operator_properties_last("mesh.optimize_contour").output == "SEPARATE"
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.data.batch_remove(bpy.data.objects[:])
+    cylinder()
+    yield from opened(window, "E", ctrl=True)
+    yield from window.choose("optimize_contour(output='SELECT')")
+    assert marked_edges(now(), "select") == edge_set(ring(GROOVE))
+    assert len(bpy.data.objects) == 1
 
 
 def test_the_edge_menu_starts_adjust_contour(window):
@@ -51,7 +69,7 @@ def test_the_context_menu(window):
     cylinder()
     yield from opened(window, "RIGHTMOUSE")
     window.picture("menu-context")
-    yield from window.choose("mesh.optimize_contour()")
+    yield from window.choose("optimize_contour(output='SELECT')")
     assert marked_edges(now(), "select") == edge_set(ring(GROOVE))
 
 
