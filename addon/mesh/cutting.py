@@ -168,7 +168,9 @@ class _Knife:
                 ends = vertices[self.given[a]], vertices[self.given[b]]
                 part = next(part for part in parts if set(ends) <= set(part.verts))
                 parts.append(self._split_face(part, *ends, ())[0])
-                halves[a, b] = part
+            for a, b in diagonals[face_id]:  # only now, since later diagonals may have divided the parts again
+                edge = self.bm.edges.get((vertices[self.given[a]], vertices[self.given[b]]))
+                halves[a, b] = edge.link_faces[0]
             self.copies += parts
         return halves
 
