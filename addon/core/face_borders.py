@@ -39,7 +39,7 @@ class FaceSelection(Faces):
 
     def vertices(self):
         """Return the vertices of the selected faces."""
-        return np.unique(self._corner_vertices[self.selected[self._corner_faces]])
+        return np.unique(self.corner_vertices[self.selected[self.corner_faces]])
 
     def borders(self):
         """Return the borders without stray islands and pinholes."""

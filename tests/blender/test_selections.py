@@ -48,7 +48,7 @@ def test_dashes_that_make_a_loop_are_joined(count, close, last):
     obj = start(dashes(count))
     assert run(output="SEAM", close=close) == {"FINISHED"}
     assert marked_edges(obj, "seam") == marked_edges(obj, "select") == GROOVE_EDGES
-    assert last.message.startswith("1 contour improved. ")
+    assert last.message.startswith("1 contour improved: clear boundary, ")
     assert last.message.endswith(f"{count} dashes were joined")
 
 
@@ -86,7 +86,7 @@ def test_a_mark_on_what_is_left_out_stays():
 def test_spurs_are_left_out(output, last):
     obj = start(pairs(START), column(3, GROOVE - 5, GROOVE - 3), column(31, GROOVE - 3, GROOVE))
     assert run(output=output) == {"FINISHED"}
-    assert last.message.startswith("1 contour improved. ")
+    assert last.message.startswith("1 contour improved: clear boundary, ")
     assert last.message.endswith("Left out of the selection: 2 spurs")
     if output != "RIP":
         assert marked_edges(obj, "select") == GROOVE_EDGES
