@@ -8,7 +8,7 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..core import edge_paths
+from ..core import edge_paths, mirrored_quads
 from ..core.face_borders import FaceSelection
 from ..core.faces import Faces
 from . import attributes
@@ -48,13 +48,16 @@ def synchronize(obj):
 
 
 def read_arrays(obj):
-    """Return the arrays of a synchronized mesh object."""
+    """Return the arrays of a synchronized mesh object. With X Mirror, its quads are cut into mirror images."""
     face_offsets, corners = attributes.face_offsets(obj), attributes.read(obj, "loops", "vertex_index", np.int32)
+    points, triangles = _read_points(obj), attributes.triangles(obj, corners)
+    if obj.data.use_mirror_x:
+        triangles = mirrored_quads.mirrored(points, face_offsets, corners, triangles)
     return MeshArrays(
-        positions=_read_points(obj),
+        positions=points,
         face_offsets=face_offsets,
         face_vertices=corners,
-        triangles=attributes.triangles(obj, corners),
+        triangles=triangles,
         hidden_faces=np.flatnonzero(attributes.read(obj, "polygons", "hide", bool)).astype(np.int32),
     )
 

@@ -685,6 +685,29 @@ def test_x_mirror_also_moves_the_other_side(mode, settings, last):
         assert min(map(abs, heights)) > 0.7
 
 
+def tilted_arms(segments=24, rings=81):
+    """A tube along x with a tilted groove round each half; its quads wind the same way everywhere."""
+    x, angle = np.meshgrid(np.linspace(-3, 3, rings), 2 * np.pi * np.arange(segments) / segments, indexing="ij")
+    radius = 1 - 0.3 * np.exp(-8 * (abs(x) - 1.2 - 0.2 * np.cos(angle)) ** 2)
+    points = np.stack([x, radius * np.cos(angle), radius * np.sin(angle)], axis=-1).reshape(-1, 3)
+    ring_pairs = [pairs([r * segments + i for i in range(segments)]) for r in range(rings)]
+    faces = [(a, b, b + segments, a + segments) for ring_of_pairs in ring_pairs[:-1] for a, b in ring_of_pairs]
+    return mesh_object("Arms", points.tolist(), faces=faces), ring_pairs[int(np.argmin(abs(x[:, 0] - 0.9)))]
+
+
+@pytest.mark.parametrize("refinement", [0, 1, 2])
+def test_x_mirror_cuts_mirror_images(refinement, last):
+    obj, loop = tilted_arms()
+    obj.data.use_mirror_x = True
+    edit(obj)
+    select(obj, loop)
+    run(output="CUT", refinement=refinement)
+    assert len(last.contours) == 2
+    points = np.array([vertex.co for vertex in bm_of(obj).verts])
+    apart = np.abs(points[:, None] * (-1, 1, 1) - points[None]).max(axis=2)
+    assert apart.min(axis=1).max() < 2e-5
+
+
 def test_x_mirror_on_an_asymmetric_mesh(last):
     obj = start()
     obj.data.use_mirror_x = True
