@@ -120,6 +120,66 @@ void damage(GeneratedMesh& mesh, FuzzedDataProvider& data) {
     }
 }
 
+/// Puts every corner that is this vertex in the faces from `first` on at another.
+void reconnect(GeneratedMesh& mesh, int vertex, int other, std::size_t first = 0) {
+    for (std::size_t f = first; f < mesh.faces.size(); ++f) std::ranges::replace(mesh.faces[f], vertex, other);
+}
+
+int copied(GeneratedMesh& mesh, int vertex) {
+    mesh.positions.push_back(Vec3(mesh.positions[vertex]));
+    return static_cast<int>(mesh.positions.size()) - 1;
+}
+
+/// What people's files have besides: long triangles, needles, faces that are not joined, doubled or inside, and vertices in which
+/// parts of the surface meet.
+void damage_as_in_files(GeneratedMesh& mesh, FuzzedDataProvider& data) {
+    enum class Change { stretch, needle, soup, split, doubled, wall, pinch, kMaxValue = pinch };
+    const int face = data.ConsumeIntegralInRange(0, static_cast<int>(mesh.faces.size()) - 1);
+    const auto any = [&] { return data.ConsumeIntegralInRange(0, static_cast<int>(mesh.positions.size()) - 1); };
+    switch (data.ConsumeEnum<Change>()) {
+        case Change::stretch: {
+            const Vec3 from = mesh.positions[any()];
+            const double by = std::pow(10.0, data.ConsumeIntegralInRange(-3, 3));
+            const int axis = data.ConsumeIntegralInRange(0, 2);
+            for (Vec3& p : mesh.positions) {
+                if (p[axis] > from[axis]) p[axis] = from[axis] + by * (p[axis] - from[axis]);
+            }
+            return;
+        }
+        case Change::needle: {
+            const std::vector<int>& corners = mesh.faces[face];
+            const Vec3 a = mesh.positions[corners[0]], b = mesh.positions[corners[1]];
+            mesh.positions[corners[1]] = a + 1e-9 * (b - a);
+            return;
+        }
+        case Change::soup:
+            for (std::vector<int>& polygon : mesh.faces) {
+                for (int& corner : polygon) corner = copied(mesh, corner);
+            }
+            return;
+        case Change::split: {
+            const std::vector<int> corners = mesh.faces[face];
+            for (const int corner : corners) reconnect(mesh, corner, copied(mesh, corner), static_cast<std::size_t>(face));
+            return;
+        }
+        case Change::doubled: {
+            std::vector<int> copy = mesh.faces[face];
+            std::ranges::reverse(copy);
+            mesh.faces.push_back(copy);
+            return;
+        }
+        case Change::wall: {
+            const int a = any(), b = any(), c = any();
+            mesh.faces.push_back({a, b, c});
+            return;
+        }
+        case Change::pinch: {
+            const int vertex = any();
+            return reconnect(mesh, vertex, any());
+        }
+    }
+}
+
 using Step = std::pair<int, int>;
 
 std::set<Step> steps_of(const std::vector<int>& polygon) {
@@ -169,8 +229,9 @@ Surface GeneratedMesh::surface() const {
     return Surface({points, offsets, vertices, {}, unseen});
 }
 
-GeneratedMesh generate_mesh(FuzzedDataProvider& data) {
+GeneratedMesh generate_mesh(FuzzedDataProvider& data, bool as_in_files) {
     GeneratedMesh mesh = grid_mesh(data);
+    for (int i = as_in_files ? data.ConsumeIntegralInRange(1, 4) : 0; i > 0; --i) damage_as_in_files(mesh, data);
     for (int i = data.ConsumeIntegralInRange(0, 12); i > 0; --i) damage(mesh, data);
     if (static_cast<int>(mesh.faces.size()) > most_faces) mesh.faces.resize(most_faces);
     return mesh;

@@ -18,7 +18,10 @@ struct GeneratedMesh {
     Surface surface() const;
 };
 
-GeneratedMesh generate_mesh(FuzzedDataProvider& data);
+/// `as_in_files`: also with what else is wrong in people's files. Where an input's first byte, which the provider reads last, is high:
+/// inputs that once failed do not change by it.
+GeneratedMesh generate_mesh(FuzzedDataProvider& data, bool as_in_files);
+inline bool as_in_files(const uint8_t* bytes, std::size_t size) { return size > 0 && bytes[0] >= 0xC0; }
 
 /// Vertex loops around a set of faces that are adjacent or have consecutive numbers, such as a user might select.
 std::vector<std::vector<int>> generate_loops(const GeneratedMesh& mesh, FuzzedDataProvider& data);

@@ -131,8 +131,8 @@ void check_each(const Surface& surface, const std::vector<Task>& tasks, const Op
     }
 }
 
-void run(FuzzedDataProvider& data) {
-    const mrc::GeneratedMesh mesh = mrc::generate_mesh(data);
+void run(FuzzedDataProvider& data, bool as_in_files) {
+    const mrc::GeneratedMesh mesh = mrc::generate_mesh(data, as_in_files);
     const Surface surface = mesh.surface();
     mrc::check_surface(surface);
     std::vector<double> density(mesh.faces.size());
@@ -175,7 +175,7 @@ void run(FuzzedDataProvider& data) {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, std::size_t size) {
     FuzzedDataProvider data(bytes, size);
     try {
-        run(data);
+        run(data, mrc::as_in_files(bytes, size));
     } catch (const mrc::InvalidInput&) {  // the right response to bad input
     }
     return 0;
