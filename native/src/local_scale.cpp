@@ -37,7 +37,8 @@ double own(const Surface& surface, int vertex) {
     std::ranges::sort(extents);
     double sum = 0.0;
     for (const auto& [extent, angle] : extents) {
-        if ((sum += angle) >= quantile * whole * (1.0 - 1e-12)) return extent;  // rounding must not decide
+        sum += angle;
+        if (sum >= quantile * whole * (1.0 - 1e-12)) return extent;  // rounding must not decide
     }
     return mean_edge(surface, vertex);
 }
