@@ -5,6 +5,7 @@ from collections import defaultdict
 from itertools import pairwise
 
 import bmesh
+import bpy
 import numpy as np
 from mathutils import Vector
 from mathutils.geometry import intersect_point_line
@@ -13,6 +14,7 @@ from ..core.contour_points import contour_points, merge_points, without_points_a
 
 _FLAT = 1e-6  # fraction of the squared perimeter; a piece of a face with less area than this counts as flat
 _STRAIGHT = 1e-5  # fraction of a segment's length; a smaller bend counts as straight
+_COPIED = "source" if bpy.app.version >= (5, 1) else "example"  # face_split's name for the edge that new ones copy
 _DEFAULTS = {"bool": False, "int": 0, "float": 0.0, "float_vector": (0.0,) * 3, "float_color": (1.0,) * 4}
 
 
@@ -199,7 +201,7 @@ class _Knife:
         """Split a face along a path through new points. Return the new face and the first corner of the cut."""
         if not self.copy_edges:
             return bmesh.utils.face_split(face, start, end, coords=points)
-        found = bmesh.utils.face_split(face, start, end, coords=points, example=face.edges[0])
+        found = bmesh.utils.face_split(face, start, end, coords=points, **{_COPIED: face.edges[0]})
         for vertex, following in pairwise([start, *_along(found[1], start, end)]):
             self._reset(self.bm.edges.get((vertex, following)))
         return found

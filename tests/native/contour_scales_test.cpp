@@ -67,9 +67,10 @@ TEST_F(ScalesOf, a_contour_do_not_depend_on_how_far_triangles_reach_that_end_nea
     // A groove round a tube, whose straight parts on both sides are cut into rings of other lengths.
     const auto grooved = [](double step) {
         std::vector<std::pair<double, double>> profile;  // radius and height
-        for (double z = -32.0; z < -0.9; z += step) profile.emplace_back(1.0, z - 1.0);
+        const int rings = static_cast<int>(32.0 / step);
+        for (int i = rings; i > 0; --i) profile.emplace_back(1.0, -1.0 - i * step);
         for (const double z : {-1.0, -0.5, 0.0, 0.5, 1.0}) profile.emplace_back(0.8 + 0.2 * std::abs(z), z);
-        for (double z = step; z < 32.1; z += step) profile.emplace_back(1.0, z + 1.0);
+        for (int i = 1; i <= rings; ++i) profile.emplace_back(1.0, 1.0 + i * step);
         return profile;
     };
     std::vector<Scales> found;

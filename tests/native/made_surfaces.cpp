@@ -105,7 +105,8 @@ Mesh ball(int around, int rings, double radius) {
     Mesh mesh;
     mesh.points.emplace_back(0.0, 0.0, -radius);
     for (int v = 0; v < around * rings; ++v) {
-        const double u = turn * (v % around) / around, height = std::numbers::pi * (v / around + 1) / (rings + 1);
+        const int ring = v / around + 1;
+        const double u = turn * (v % around) / around, height = std::numbers::pi * ring / (rings + 1);
         mesh.points.push_back(radius * Vec3(std::sin(height) * std::cos(u), std::sin(height) * std::sin(u), -std::cos(height)));
     }
     mesh.points.emplace_back(0.0, 0.0, radius);
