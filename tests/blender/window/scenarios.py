@@ -181,6 +181,35 @@ def test_the_sidebar_can_be_open(window):
     yield from window.press("ESC")
 
 
+def test_what_is_refused_is_framed_and_undo_restores_the_selection(window):
+    """The culprit is an edge that has three faces."""
+    obj = cylinder()
+    a, b, *_ = ring(GROOVE - 3)
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    bm.faces.new([bm.verts[a], bm.verts[b], bm.verts.new((2, 0, 1))])
+    for edge in bm.edges:
+        edge.select_set(False)
+    bmesh.update_edit_mesh(obj.data)
+    select(obj, pairs(ring(GROOVE - 3)))
+    bpy.ops.ed.undo_push(message="prepared")
+    before = mesh_state(obj)
+    assert window.operator("optimize_contour") == {"CANCELLED"}
+    for _ in range(30):  # the view moves smoothly
+        yield
+    shown = [vertex for vertex in bmesh.from_edit_mesh(now().data).verts if vertex.select]
+    assert {a, b} <= {vertex.index for vertex in shown} != set(ring(GROOVE - 3))
+    center = sum((vertex.co for vertex in shown), Vector()) / len(shown)
+    assert (window.view.view_location - center).length < 0.5
+    window.picture("refused")
+    yield from window.press("Z", ctrl=True)
+    for _ in range(200):  # the view may still be moving
+        if mesh_state(now()) == before:
+            return
+        yield
+    assert mesh_state(now()) == before
+
+
 def test_nothing_selected(window):
     obj = cylinder()
     bpy.ops.mesh.select_all(action="DESELECT")
@@ -213,32 +242,3 @@ def test_a_failure_leaves_no_overlay_behind(window):
         Preview.search = search
     yield from window.wait()
     assert np.array_equal(window.upper(window.picture("after")), untouched)
-
-
-def test_what_is_refused_is_framed_and_undo_restores_the_selection(window):
-    """The culprit is an edge that has three faces."""
-    obj = cylinder()
-    a, b, *_ = ring(GROOVE - 3)
-    bm = bmesh.from_edit_mesh(obj.data)
-    bm.verts.ensure_lookup_table()
-    bm.faces.new([bm.verts[a], bm.verts[b], bm.verts.new((2, 0, 1))])
-    for edge in bm.edges:
-        edge.select_set(False)
-    bmesh.update_edit_mesh(obj.data)
-    select(obj, pairs(ring(GROOVE - 3)))
-    bpy.ops.ed.undo_push(message="prepared")
-    before = mesh_state(obj)
-    assert window.operator("optimize_contour") == {"CANCELLED"}
-    for _ in range(30):  # the view moves smoothly
-        yield
-    shown = [vertex for vertex in bmesh.from_edit_mesh(now().data).verts if vertex.select]
-    assert {a, b} <= {vertex.index for vertex in shown} != set(ring(GROOVE - 3))
-    center = sum((vertex.co for vertex in shown), Vector()) / len(shown)
-    assert (window.view.view_location - center).length < 0.5
-    window.picture("refused")
-    yield from window.press("Z", ctrl=True)
-    for _ in range(200):  # the view may still be moving
-        if mesh_state(now()) == before:
-            return
-        yield
-    assert mesh_state(now()) == before
