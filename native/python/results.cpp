@@ -235,14 +235,11 @@ PyResult describe(const mrc::Surface& surface, mrc::Result result) {
     return described;
 }
 
-void bind_results(py::module_& module) {
-    bind_scales(module);
-    bind_measure(module);
-    py::class_<PyResult> result(
-        module, "Result", py::module_local(),
-        "What optimize found. Ratios are in one over the mesh's unit of length (denominator 'arcs': without unit).");
-    define_copies(result);
-    result.def(py::pickle(&result_state, &result_from_state));
+namespace {
+
+using ResultClass = py::class_<PyResult>;
+
+void bind_outcome(ResultClass& result) {
     result
         .def_property_readonly(
             "status", [](const PyResult& r) { return StatusName(py::str(status_name(r.result.status))); },
@@ -270,7 +267,11 @@ void bind_results(py::module_& module) {
             "below 0.5 seldom.")
         .def_property_readonly("lower_bound", field(&mrc::Result::lower_bound),
                                "No contour of the last iteration's graph has a lower objective.")
-        .def_property_readonly("gap", field(&mrc::Result::gap), "Objective of the best found minus lower_bound, never negative.")
+        .def_property_readonly("gap", field(&mrc::Result::gap), "Objective of the best found minus lower_bound, never negative.");
+}
+
+void bind_search(ResultClass& result) {
+    result
         .def_property_readonly(
             "held_back_by", [](const PyResult& r) { return py::typing::Tuple<int, py::ellipsis>(py::cast(r.result.held_back_by)); },
             "tuple of int: the contours of optimize_all that kept this one's last band from growing, by their place in the "
@@ -291,8 +292,11 @@ void bind_results(py::module_& module) {
             "statistics", &statistics,
             "dict: faces, cut, nodes, arcs, linear_steps and passes of the last iteration, as in tables 5.1 and 5.2; iterations, "
             "done in all; rings, how many edges lead from the given contour to the farthest point of the one returned; seconds, a "
-            "dict of the time that each stage took.")
-        .def_property_readonly("contour", field(&mrc::Result::contour), "The Contour found.")
+            "dict of the time that each stage took.");
+}
+
+void bind_contour_found(ResultClass& result) {
+    result.def_property_readonly("contour", field(&mrc::Result::contour), "The Contour found.")
         .def_property_readonly("length", field(&mrc::Result::length),
                                "Of the contour returned along its segments, in the mesh's unit.")
         .def_property_readonly(
@@ -312,11 +316,25 @@ void bind_results(py::module_& module) {
         .def_property_readonly(
             "segment_faces", [](const PyResult& r) { return to_array(r.segment_faces); },
             "(N,) int32, of an open contour (N - 1,): a face that holds the segment from each point to the next; along an edge\n"
-            "the left one.")
-        .def("__repr__", [](const PyResult& r) {
-            return std::string("<mrcontour.Result: ") + status_name(r.result.status) + ", ratio " +
-                   mrc::number_text(r.result.initial_ratio) + " -> " + mrc::number_text(r.result.ratio) + ">";
-        });
+            "the left one.");
+}
+
+}  // namespace
+
+void bind_results(py::module_& module) {
+    bind_scales(module);
+    bind_measure(module);
+    ResultClass result(module, "Result", py::module_local(),
+                       "What optimize found. Ratios are in one over the mesh's unit of length (denominator 'arcs': without unit).");
+    define_copies(result);
+    result.def(py::pickle(&result_state, &result_from_state));
+    bind_outcome(result);
+    bind_search(result);
+    bind_contour_found(result);
+    result.def("__repr__", [](const PyResult& r) {
+        return std::string("<mrcontour.Result: ") + status_name(r.result.status) + ", ratio " +
+               mrc::number_text(r.result.initial_ratio) + " -> " + mrc::number_text(r.result.ratio) + ">";
+    });
 }
 
 }  // namespace mrc_python
