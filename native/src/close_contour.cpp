@@ -3,7 +3,6 @@
 
 #include "progress_monitor.h"
 
-#include "contour_scales.h"
 #include "curvature_field.h"
 #include "cut_off.h"
 #include "distances.h"

@@ -11,9 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace mrc {

@@ -25,7 +25,8 @@ inline Eigen::Matrix3d full(const Symmetric& s) {
 /// The curvature tensor of eq. 3.4 at single vertices: F = 1 / |B| sum beta(e) |e in B| e e^T, with B the disk about the vertex.
 ///
 /// The disk is the part of a ball that is connected to the vertex along the surface, so that the other side of a thin plate stays
-/// out. A soft disk weighs edges and area with 1 - d^2 / radius^2, d being the distance from the vertex. What depends on an edge or a triangle alone is kept, since the disks of neighbors overlap.
+/// out. A soft disk weighs edges and area with 1 - d^2 / radius^2, d being the distance from the vertex. What depends on an edge or a
+/// triangle alone is kept, since the disks of neighbors overlap.
 class DiskTensors {
   public:
     explicit DiskTensors(const Surface& surface) : surface_(&surface) {}

@@ -18,9 +18,10 @@ struct GeneratedMesh {
     Surface surface() const;
 };
 
-/// `as_in_files`: also with what else is wrong in people's files. Where an input's first byte, which the provider reads last, is high:
-/// inputs that once failed do not change by it.
+/// `as_in_files`: also with what else is wrong in people's files.
 GeneratedMesh generate_mesh(FuzzedDataProvider& data, bool as_in_files);
+
+/// True where an input's first byte is high, which the provider reads last: inputs that once failed do not change by it.
 inline bool as_in_files(const uint8_t* bytes, std::size_t size) { return size > 0 && bytes[0] >= 0xC0; }
 
 /// Vertex loops around a set of faces that are adjacent or have consecutive numbers, such as a user might select.
